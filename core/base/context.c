@@ -29,8 +29,8 @@ void *wo_new(const wo_context *context, wo_error *error, size_t count, size_t si
     }
     const size_t bytes = count * size;
     if (context && context->max_bytes && bytes > context->max_bytes) {
-        wo_fail(error, WO_ERR_NOMEM, "%zu bytes are more than the limit of %zu bytes at once", bytes,
-                context->max_bytes);
+        wo_fail(error, WO_ERR_NOMEM, "%zu bytes are more than the limit of %zu bytes at once",
+                bytes, context->max_bytes);
         return NULL;
     }
     void *memory = take(context, bytes);

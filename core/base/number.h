@@ -10,13 +10,14 @@
 /* Room for any number wo_number_print writes, with the final zero. */
 #define WO_NUMBER_SIZE 32
 
-/* Reads one finite decimal number, with an optional sign, point and exponent, from the start of text;
-   *end (if not NULL) is set behind it. Blanks, hexadecimal, "inf" and "nan" are not numbers. False if
-   there is no number or it is too large for a double; *value is then untouched. Any thread. */
+/* Reads one finite decimal number, with an optional sign, point and exponent, from the start of
+   text; *end (if not NULL) is set behind it. Blanks, hexadecimal, "inf" and "nan" are not numbers.
+   False if there is no number or it is too large for a double; *value is then untouched. Any
+   thread. */
 bool wo_number_read(const char *text, const char **end, double *value);
 
-/* Shortest text that wo_number_read turns into the same double; "nan", "inf" and "-inf" for what has no
-   digits. Returns the length. Any thread. */
+/* Shortest text that wo_number_read turns into the same double; "nan", "inf" and "-inf" for what
+   has no digits. Returns the length. Any thread. */
 int wo_number_print(double value, char text[WO_NUMBER_SIZE]);
 
 #endif

@@ -135,13 +135,11 @@ void wo_param_get(const wo_param *param, const void *params, double values[3])
         memcpy(&whole, const_field(param, params), sizeof whole);
         values[0] = whole;
     } else {
-        memcpy(values, const_field(param, params),
-               (size_t)wo_param_values(param) * sizeof *values);
+        memcpy(values, const_field(param, params), (size_t)wo_param_values(param) * sizeof *values);
     }
 }
 
-wo_status wo_param_set(const wo_param *param, void *params, const double values[3],
-                       wo_error *error)
+wo_status wo_param_set(const wo_param *param, void *params, const double values[3], wo_error *error)
 {
     if (param->type == WO_PARAM_STRING)
         return wo_fail(error, WO_ERR_ARGUMENT, "%s: is a text, not a number", param->key);

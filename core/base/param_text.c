@@ -71,8 +71,8 @@ static void list_choices(const wo_param *param, char *buffer, size_t size)
     size_t used = 0;
     buffer[0] = '\0';
     for (int i = 0; i < wo_param_choice_count(param) && used < size; i++) {
-        const int wrote = snprintf(buffer + used, size - used, "%s%s", i ? ", " : "",
-                                   param->choices[i]);
+        const int wrote =
+            snprintf(buffer + used, size - used, "%s%s", i ? ", " : "", param->choices[i]);
         if (wrote < 0)
             return;
         used += (size_t)wrote;

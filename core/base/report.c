@@ -73,9 +73,9 @@ void wo_report_add(wo_report *total, const wo_report *part)
     /* A fraction of light: the parts count by their pixels. */
     const double pixels = (double)total->pixels + (double)part->pixels;
     if (pixels > 0)
-        total->guessed = (total->guessed * (double)total->pixels +
-                          part->guessed * (double)part->pixels) /
-                         pixels;
+        total->guessed =
+            (total->guessed * (double)total->pixels + part->guessed * (double)part->pixels) /
+            pixels;
     for (int i = 0; i < WO_STAGE_COUNT; i++)
         total->seconds[i] += part->seconds[i];
     for (int i = 0; i < WO_TILE_CLASS_COUNT; i++)

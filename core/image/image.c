@@ -22,10 +22,9 @@ wo_status wo_image_validate(const wo_image *image, const char *name, wo_error *e
     const wo_rect bounds = image->bounds;
     if (!within_reach(bounds.x1) || !within_reach(bounds.y1) || !within_reach(bounds.x2) ||
         !within_reach(bounds.y2))
-        return wo_fail(error, WO_ERR_RANGE,
-                       "%s: bounds %d,%d..%d,%d lie outside %d..%d", name, (int)bounds.x1,
-                       (int)bounds.y1, (int)bounds.x2, (int)bounds.y2, -WO_MAX_COORDINATE,
-                       WO_MAX_COORDINATE);
+        return wo_fail(error, WO_ERR_RANGE, "%s: bounds %d,%d..%d,%d lie outside %d..%d", name,
+                       (int)bounds.x1, (int)bounds.y1, (int)bounds.x2, (int)bounds.y2,
+                       -WO_MAX_COORDINATE, WO_MAX_COORDINATE);
     const int32_t width = wo_rect_width(bounds), height = wo_rect_height(bounds);
     if (width < 1 || height < 1 || width > WO_MAX_SIDE || height > WO_MAX_SIDE)
         return wo_fail(error, WO_ERR_RANGE, "%s: a picture of %dx%d pixels, but 1..%d a side fit",

@@ -79,7 +79,6 @@ void wo_bar_begin(wo_bar *bar, bool shown, const char *label)
 {
     *bar = (wo_bar){.shown = shown, .permille = -1};
     snprintf(bar->label, sizeof bar->label, "%s", label);
-    wo_bar_move(bar, 0);
 }
 
 void wo_bar_move(wo_bar *bar, double fraction)

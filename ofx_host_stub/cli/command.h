@@ -45,11 +45,11 @@ void wo_interrupt_catch(void);
 /* True after an interrupt. user is ignored, so that it fits every abort callback. Any thread. */
 bool wo_interrupted(void *user);
 
-/* A bar on stderr, drawn only when shown is true; fraction 0..1. It is erased by wo_bar_end. The
-   three calls belong to one thread. */
+/* A bar on stderr, drawn by wo_bar_move (fraction 0..1) and only when shown is true; wo_bar_end erases
+   it. One call at a time. */
 typedef struct wo_bar {
     bool shown;
-    int permille;    /* what is drawn, -1 = nothing */
+    int permille; /* what is drawn, -1 = nothing */
     char label[64];
 } wo_bar;
 void wo_bar_begin(wo_bar *bar, bool shown, const char *label);

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#ifndef WO_CORE_DEFOCUS_MARCH_H
+#define WO_CORE_DEFOCUS_MARCH_H
+
+#include "defocus/stack.h"
+#include "optics/pencil.h"
+
+/* Lens rays through a stack (Lee, Eisemann, Seidel 2010, section 3.1; Jeong, section 3.4).
+
+   A ray walks along its footprint, the line p(v) from the nearest vergence to the farthest, one
+   pixel of its longer axis at a time, and looks at every sheet at once. The patch of a pixel is
+   hit where the ray, at the patch's vergence, is within half a pixel of it, or where it passed from
+   before to behind a surface that is connected (no step of more than WO_CONNECT_PX). The nearest
+   hit comes first; coverage below 1 lets the rest of the light through. A ray that ends behind
+   a surface which it never met saw something no sheet holds: it counts only as far as it was stopped. */
+#define WO_CONNECT_PX 1.5f
+/* Light below this fraction is not followed further. */
+#define WO_LIGHT_MIN (1.0f / 1024)
+
+/* What the kernels need of one tile. */
+typedef struct wo_march_view {
+    int sheets;
+    const float *v[WO_SHEETS_MAX];
+    const float *c[WO_SHEETS_MAX][4];
+    bool guessed[WO_SHEETS_MAX];
+    ptrdiff_t run, row;  /* of the stack */
+    float v_near, v_far; /* no surface of the footprint lies outside */
+    float v_connect;     /* dioptres: neighbours closer than this are one surface */
+    bool smooth;         /* interpolate colours between pixels; for blur of a few px */
+} wo_march_view;
+
+/* Sums over a pencil, for the eight pixels of a vector. */
+typedef struct wo_march_sums {
+    float c[4][WO_LANES]; /* r g b a, times weight */
+    float weight[WO_LANES];
+    float guessed[WO_LANES]; /* part of the light that came from invented surfaces */
+    int64_t steps;           /* lookups of a sheet, each for one pixel */
+} wo_march_sums;
+
+/* (x, y): place of the first pixel of a block relative to the stack's area, x a multiple of WO_BLOCK;
+   run_index 0..3 picks the vector of the block. sums are overwritten. */
+typedef void wo_march_function(const wo_march_view *view, int32_t x, int32_t y, int run_index,
+                               const wo_pencil *pencil, wo_march_sums *sums);
+
+typedef struct wo_march_kernels {
+    wo_march_function *march;  /* any scene */
+    wo_march_function *single; /* one sheet without gaps whose vergences differ by less than a px of
+                                  blur: one lookup for each ray */
+} wo_march_kernels;
+
+/* Kernels for these instruction sets (WO_CPU_*). */
+const wo_march_kernels *wo_march_choose(int cpu);
+
+extern const wo_march_kernels wo_march_base;
+#if defined(__x86_64__)
+extern const wo_march_kernels wo_march_avx2;
+#endif
+
+#endif

@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "defocus/sheet.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* A surface farther than this counts as "no depth" where an edge needs a neighbour's. */
+#define V_NONE 1e-6
+
+wo_status wo_sheet_create(const wo_context *context, wo_rect area, wo_sheet *sheet, wo_error *error)
+{
+    *sheet = (wo_sheet){.area = area};
+    const size_t n = (size_t)wo_rect_width(area) * (size_t)wo_rect_height(area);
+    sheet->v = wo_new(context, error, n, sizeof *sheet->v);
+    if (sheet->v)
+        sheet->c = wo_new(context, error, n, sizeof *sheet->c);
+    if (!sheet->c) {
+        wo_sheet_destroy(context, sheet);
+        return WO_ERR_NOMEM;
+    }
+    return WO_OK;
+}
+
+void wo_sheet_destroy(const wo_context *context, wo_sheet *sheet)
+{
+    wo_delete(context, sheet->v);
+    wo_delete(context, sheet->c);
+    *sheet = (wo_sheet){0};
+}
+
+typedef struct load_job {
+    const wo_sheet_source *source;
+    wo_rect counted;
+    wo_sheet *sheet;
+    wo_sheet_counts *rows; /* [h], so that no two workers share one */
+    uint8_t *seen;         /* [h][w] 1 = has a depth of its own */
+} load_job;
+
+static int32_t clamp_to(int32_t x, int32_t low, int32_t high)
+{
+    return x < low ? low : x >= high ? high - 1 : x;
+}
+
+/* Colour of one pixel, premultiplied, finite. */
+static void read_colour(const wo_sheet_source *source, int32_t x, int32_t y, bool counted,
+                        float c[4], wo_sheet_counts *counts)
+{
+    const wo_image *image = source->colour;
+    const float *p = wo_image_at(image, clamp_to(x, image->bounds.x1, image->bounds.x2),
+                                 clamp_to(y, image->bounds.y1, image->bounds.y2));
+    const int n = image->components;
+    c[3] = 1;
+    for (int i = 0; i < 3; i++)
+        c[i] = n == 1 ? p[0] : p[i];
+    if (n == 4 && source->alpha != WO_ALPHA_OPAQUE)
+        c[3] = p[3];
+    for (int i = 0; i < 4; i++) {
+        if (!isfinite(c[i])) {
+            c[i] = 0;
+            counts->sanitised_colour += counted;
+        }
+    }
+    c[3] = fminf(fmaxf(c[3], 0), 1);
+    if (n == 4 && source->alpha == WO_ALPHA_UNPREMULTIPLIED)
+        for (int i = 0; i < 3; i++)
+            c[i] *= c[3];
+}
+
+static double read_vergence(const wo_sheet_source *source, int32_t x, int32_t y, bool *valid)
+{
+    const wo_image *image = source->depth;
+    *valid = true;
+    if (!image || !image->data)
+        return 0;
+    const float *p = wo_image_at(image, clamp_to(x, image->bounds.x1, image->bounds.x2),
+                                 clamp_to(y, image->bounds.y1, image->bounds.y2));
+    const int last = image->components - 1;
+    const double sample = p[source->depth_channel < last ? source->depth_channel : last];
+    double cosine = 1;
+    if (source->reading.mode == WO_DEPTH_RAY) {
+        const double cx = 0.5 * ((double)source->format.x1 + source->format.x2);
+        const double cy = 0.5 * ((double)source->format.y1 + source->format.y2);
+        const double dx = (x + 0.5 - cx) / source->focal_px;
+        const double dy = (y + 0.5 - cy) / (source->focal_px * source->stretch);
+        cosine = 1 / sqrt(1 + dx * dx + dy * dy);
+    }
+    return wo_depth_vergence(&source->reading, sample, cosine, valid);
+}
+
+static void load_row(void *user, size_t index, unsigned worker)
+{
+    (void)worker;
+    load_job *job = user;
+    const wo_sheet_source *source = job->source;
+    const wo_rect area = job->sheet->area;
+    const size_t w = (size_t)wo_rect_width(area);
+    const int32_t y = area.y1 + (int32_t)index;
+    const bool row_counted = y >= job->counted.y1 && y < job->counted.y2;
+    wo_sheet_counts *counts = &job->rows[index];
+    for (size_t i = 0; i < w; i++) {
+        const int32_t x = area.x1 + (int32_t)i;
+        const size_t at = index * w + i;
+        const bool counted = row_counted && x >= job->counted.x1 && x < job->counted.x2;
+        float *c = job->sheet->c[at];
+        read_colour(source, x, y, counted, c, counts);
+        bool valid;
+        double v = read_vergence(source, x, y, &valid);
+        const bool empty = c[3] == 0 && c[0] == 0 && c[1] == 0 && c[2] == 0;
+        if (empty) {
+            job->sheet->v[at] = NAN;
+            continue;
+        }
+        counts->sanitised_depth += counted && !valid;
+        job->seen[at] = v > V_NONE;
+        if (v < source->v_min || v > source->v_max) {
+            v = fmin(fmax(v, source->v_min), source->v_max);
+            counts->clamped_radius += counted;
+        }
+        job->sheet->v[at] = (float)v;
+    }
+}
+
+/* Nearest surface with a depth of its own among the pixels at this distance; NaN when none. */
+static float ring_vergence(const load_job *job, int32_t i, int32_t j, int ring)
+{
+    const int32_t w = wo_rect_width(job->sheet->area);
+    const int32_t h = wo_rect_height(job->sheet->area);
+    float best = NAN;
+    for (int32_t b = -ring; b <= ring; b++) {
+        for (int32_t a = -ring; a <= ring; a++) {
+            const int32_t x = i + a;
+            const int32_t y = j + b;
+            if ((abs(a) != ring && abs(b) != ring) || x < 0 || y < 0 || x >= w || y >= h)
+                continue;
+            const size_t at = (size_t)y * (size_t)w + (size_t)x;
+            if (job->seen[at] && !(job->sheet->v[at] <= best))
+                best = job->sheet->v[at];
+        }
+    }
+    return best;
+}
+
+static void edge_depth_row(void *user, size_t index, unsigned worker)
+{
+    (void)worker;
+    load_job *job = user;
+    const wo_rect area = job->sheet->area;
+    const int32_t w = wo_rect_width(area);
+    const int32_t y = area.y1 + (int32_t)index;
+    for (int32_t i = 0; i < w; i++) {
+        const size_t at = index * (size_t)w + (size_t)i;
+        const float coverage = job->sheet->c[at][3];
+        if (job->seen[at] || isnan(job->sheet->v[at]) || coverage >= 1)
+            continue;
+        float v = NAN;
+        for (int ring = 1; ring <= WO_SHEET_LOAD_MARGIN && isnan(v); ring++)
+            v = ring_vergence(job, i, (int32_t)index, ring);
+        if (isnan(v))
+            continue;
+        job->sheet->v[at] = v;
+        const int32_t x = area.x1 + i;
+        job->rows[index].edge_depth += y >= job->counted.y1 && y < job->counted.y2 &&
+                                       x >= job->counted.x1 && x < job->counted.x2;
+    }
+}
+
+wo_status wo_sheet_load(const wo_context *context, const wo_sheet_source *source, wo_rect counted,
+                        wo_sheet *sheet, wo_sheet_counts *counts, wo_error *error)
+{
+    const size_t w = (size_t)wo_rect_width(sheet->area);
+    const size_t h = (size_t)wo_rect_height(sheet->area);
+    load_job job = {source, counted, sheet, NULL, NULL};
+    job.rows = wo_new(context, error, h, sizeof *job.rows);
+    job.seen = job.rows ? wo_new(context, error, w * h, sizeof *job.seen) : NULL;
+    if (!job.seen) {
+        wo_delete(context, job.rows);
+        return WO_ERR_NOMEM;
+    }
+    wo_run(context, load_row, &job, h);
+    wo_run(context, edge_depth_row, &job, h);
+    for (size_t y = 0; y < h; y++) {
+        counts->sanitised_colour += job.rows[y].sanitised_colour;
+        counts->sanitised_depth += job.rows[y].sanitised_depth;
+        counts->edge_depth += job.rows[y].edge_depth;
+        counts->clamped_radius += job.rows[y].clamped_radius;
+    }
+    for (size_t i = 0; i < w * h && !sheet->any; i++)
+        sheet->any = !isnan(sheet->v[i]);
+    wo_delete(context, job.rows);
+    wo_delete(context, job.seen);
+    return WO_OK;
+}

@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "defocus/stack.h"
+
+#include <math.h>
+
+/* Rows end in spare floats, so that a vector that starts inside never leaves the memory. */
+enum { SPARE = 16 };
+
+static int32_t floor_to(int32_t x, int32_t grid)
+{
+    const int32_t r = x % grid;
+    return x - (r < 0 ? r + grid : r);
+}
+
+wo_rect wo_stack_grid(wo_rect r)
+{
+    return (wo_rect){floor_to(r.x1, WO_BLOCK), floor_to(r.y1, WO_CELL),
+                     floor_to(r.x2 + WO_BLOCK - 1, WO_BLOCK),
+                     floor_to(r.y2 + WO_CELL - 1, WO_CELL)};
+}
+
+typedef struct pack_job {
+    wo_stack *stack;
+    const wo_sheet *sheets[WO_SHEETS_MAX];
+    wo_rect extent;
+} pack_job;
+
+static void pack_row(void *user, size_t index, unsigned worker)
+{
+    (void)worker;
+    const pack_job *job = user;
+    const wo_stack *stack = job->stack;
+    const int32_t y = stack->area.y1 + (int32_t)index;
+    const wo_rect e = job->extent;
+    const int32_t from_y = y < e.y1 ? e.y1 : y >= e.y2 ? e.y2 - 1 : y;
+    for (int s = 0; s < stack->sheets; s++) {
+        const wo_sheet *sheet = job->sheets[s];
+        const ptrdiff_t w = wo_rect_width(sheet->area);
+        const ptrdiff_t from = (from_y - sheet->area.y1) * w - sheet->area.x1;
+        for (int32_t x = stack->area.x1; x < stack->area.x2; x++) {
+            const int32_t from_x = x < e.x1 ? e.x1 : x >= e.x2 ? e.x2 - 1 : x;
+            const ptrdiff_t to = wo_stack_at(stack, x, y);
+            stack->v[s][to] = sheet->v[from + from_x];
+            for (int k = 0; k < 4; k++)
+                stack->c[s][k][to] = sheet->c[from + from_x][k];
+        }
+    }
+}
+
+static void bound_row(void *user, size_t index, unsigned worker)
+{
+    (void)worker;
+    const pack_job *job = user;
+    const wo_stack *stack = job->stack;
+    const uint16_t all = (uint16_t)((1u << stack->sheets) - 1);
+    for (int32_t i = 0; i < stack->cell_columns; i++) {
+        wo_cell cell = {INFINITY, -INFINITY, 0, all};
+        for (int32_t p = 0; p < WO_CELL * WO_CELL; p++) {
+            const int32_t x = stack->area.x1 + i * WO_CELL + p % WO_CELL;
+            const int32_t y = stack->area.y1 + (int32_t)index * WO_CELL + p / WO_CELL;
+            const ptrdiff_t at = wo_stack_at(stack, x, y);
+            for (int s = 0; s < stack->sheets; s++) {
+                const float v = stack->v[s][at];
+                const uint16_t bit = (uint16_t)(1u << s);
+                if (isnan(v)) {
+                    cell.full &= (uint16_t)~bit;
+                    continue;
+                }
+                cell.some |= bit;
+                cell.v_min = fminf(cell.v_min, v);
+                cell.v_max = fmaxf(cell.v_max, v);
+            }
+        }
+        stack->cells[index * (size_t)stack->cell_columns + (size_t)i] = cell;
+    }
+}
+
+wo_status wo_stack_create(const wo_context *context, const wo_sheet *sheets, size_t count,
+                          wo_rect area, wo_rect extent, wo_stack *stack, wo_error *error)
+{
+    area = wo_stack_grid(area);
+    *stack = (wo_stack){.area = area};
+    pack_job job = {.stack = stack, .extent = extent};
+    for (size_t s = 0; s < count && stack->sheets < WO_SHEETS_MAX; s++) {
+        if (!sheets[s].any)
+            continue;
+        stack->guessed[stack->sheets] = sheets[s].guessed;
+        job.sheets[stack->sheets++] = &sheets[s];
+    }
+    const size_t h = (size_t)wo_rect_height(area);
+    stack->run = wo_rect_width(area) / WO_PHASES + SPARE;
+    stack->row = stack->run * WO_PHASES;
+    stack->cell_columns = wo_rect_width(area) / WO_CELL;
+    stack->cell_rows = wo_rect_height(area) / WO_CELL;
+    stack->cells = wo_new(context, error, (size_t)stack->cell_columns * (size_t)stack->cell_rows,
+                          sizeof *stack->cells);
+    if (!stack->cells)
+        return WO_ERR_NOMEM;
+    if (stack->sheets > 0) {
+        const size_t plane = (size_t)stack->row * h;
+        stack->memory =
+            wo_new(context, error, plane, (size_t)stack->sheets * 5 * sizeof *stack->memory);
+        if (!stack->memory) {
+            wo_stack_destroy(context, stack);
+            return WO_ERR_NOMEM;
+        }
+        float *next = stack->memory;
+        for (int s = 0; s < stack->sheets; s++) {
+            stack->v[s] = next;
+            for (int k = 0; k < 4; k++)
+                stack->c[s][k] = next + plane * (size_t)(k + 1);
+            next += 5 * plane;
+        }
+    }
+    wo_run(context, pack_row, &job, h);
+    wo_run(context, bound_row, &job, (size_t)stack->cell_rows);
+    return WO_OK;
+}
+
+void wo_stack_destroy(const wo_context *context, wo_stack *stack)
+{
+    wo_delete(context, stack->memory);
+    wo_delete(context, stack->cells);
+    *stack = (wo_stack){0};
+}
+
+wo_cell wo_stack_bounds(const wo_stack *stack, wo_rect r)
+{
+    wo_cell out = {INFINITY, -INFINITY, 0, UINT16_MAX};
+    const int32_t i1 = (r.x1 - stack->area.x1) / WO_CELL;
+    const int32_t j1 = (r.y1 - stack->area.y1) / WO_CELL;
+    const int32_t i2 = (r.x2 - 1 - stack->area.x1) / WO_CELL;
+    const int32_t j2 = (r.y2 - 1 - stack->area.y1) / WO_CELL;
+    for (int32_t j = j1; j <= j2; j++) {
+        const wo_cell *row = stack->cells + (ptrdiff_t)j * stack->cell_columns;
+        for (int32_t i = i1; i <= i2; i++) {
+            out.v_min = row[i].v_min < out.v_min ? row[i].v_min : out.v_min;
+            out.v_max = row[i].v_max > out.v_max ? row[i].v_max : out.v_max;
+            out.some |= row[i].some;
+            out.full &= row[i].full;
+        }
+    }
+    return out;
+}

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#ifndef WO_CORE_DEFOCUS_STACK_H
+#define WO_CORE_DEFOCUS_STACK_H
+
+#include "defocus/sheet.h"
+
+/* The scene as the kernels read it: every sheet as five float planes over one area, edges repeated
+   beyond the extent, so that no ray ever needs a bounds check.
+
+   A row holds its pixels in WO_PHASES runs: pixel x lies in run x & 3 at place x >> 2. Eight
+   neighbours of one run are four pixels apart in the picture; they form the vector of a kernel and
+   share a lens sample, while the pixels between them use other samples: no pattern shows, and
+   every load is contiguous whatever the offset. */
+#define WO_PHASES      4
+#define WO_LANES       8
+#define WO_BLOCK       (WO_PHASES * WO_LANES) /* px of one row that four vectors cover */
+#define WO_TILE_WIDTH  WO_BLOCK
+#define WO_TILE_HEIGHT 16
+#define WO_SHEETS_MAX  10
+#define WO_CELL        8 /* px, side of a cell of bounds */
+
+typedef struct wo_cell {
+    float v_min, v_max; /* over all sheets; v_min > v_max when there is nothing */
+    uint16_t some, full; /* bit s: sheet s has a surface at some pixel, at every pixel */
+} wo_cell;
+
+typedef struct wo_stack {
+    wo_rect area; /* x1 is a multiple of WO_BLOCK, y1 of WO_CELL */
+    ptrdiff_t run; /* floats of one run of a row */
+    ptrdiff_t row; /* floats of one row: WO_PHASES * run */
+    int sheets;
+    float *v[WO_SHEETS_MAX];
+    float *c[WO_SHEETS_MAX][4];
+    bool guessed[WO_SHEETS_MAX];
+    float *memory;
+    int32_t cell_columns, cell_rows;
+    wo_cell *cells;
+} wo_stack;
+
+/* Place of pixel (x, y) in a plane. */
+static inline ptrdiff_t wo_stack_at(const wo_stack *stack, int32_t x, int32_t y)
+{
+    const ptrdiff_t i = x - stack->area.x1;
+    return (y - stack->area.y1) * stack->row + (i & (WO_PHASES - 1)) * stack->run + i / WO_PHASES;
+}
+
+/* Packs the sheets that hold anything; area is grown to the grid. sheets must cover the part of area
+   inside extent; pixels outside repeat the nearest inside. */
+WO_NODISCARD wo_status wo_stack_create(const wo_context *context, const wo_sheet *sheets,
+                                       size_t count, wo_rect area, wo_rect extent, wo_stack *stack,
+                                       wo_error *error);
+void wo_stack_destroy(const wo_context *context, wo_stack *stack);
+
+/* Area that wo_stack_create makes of this one. */
+wo_rect wo_stack_grid(wo_rect area);
+
+/* Bounds over the cells that touch r, which must lie inside the area. Sheets of some are present
+   somewhere, those of full everywhere. */
+wo_cell wo_stack_bounds(const wo_stack *stack, wo_rect r);
+
+#endif

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#ifndef WO_CORE_OPTICS_PENCIL_H
+#define WO_CORE_OPTICS_PENCIL_H
+
+#include "wideopen/aperture.h"
+#include "wideopen/context.h"
+#include "wideopen/optics.h"
+
+/* A pencil: the rays of one sensor point, each a straight line in vergence,
+       p(v) - x = (ax + bx v, ay + by v)   [px]
+   with a weight. Lens models make pencils; renderers consume them; neither knows the other. */
+typedef struct wo_pencil {
+    int count;
+    const float *ax, *ay, *bx, *by; /* [count], borrowed from the lens */
+    const float *weight;            /* [count], NULL = all 1 */
+} wo_pencil;
+
+/* A lens as a renderer sees it. Const after it is made, shared by all threads. */
+typedef struct wo_lens {
+    const void *self;
+    unsigned sets; /* number of different pencils for one sensor point; neighbours use different ones */
+    /* Pencil number set (0..sets-1) at the sensor point (x, y), px. */
+    void (*pencil)(const void *self, double x, double y, unsigned set, wo_pencil *out);
+    /* Largest distance |p(v) - x| of any ray over v_far <= v <= v_near, px. */
+    double (*reach)(const void *self, double v_far, double v_near);
+    /* px of blur radius per dioptre, for comparing vergences. */
+    double px_per_dioptre;
+    /* Density of rays, per px^2, that cross the picture at offset (dx, dy) from the sensor point at
+       vergence v, and the ray itself; 0 when none does. NULL = not known in closed form. */
+    double (*connect)(const void *self, double dx, double dy, double v, double line[4]);
+} wo_lens;
+
+/* The thin lens with an aperture shape: K u (v - vf). stretch: vertical px per horizontal px. */
+typedef struct wo_thin_pencils {
+    wo_thin_lens lens;
+    wo_aperture_shape shape;
+    double stretch;
+    int count;
+    unsigned sets;
+    float *rays; /* [sets][4][count] */
+} wo_thin_pencils;
+
+/* count >= 1 samples of the aperture in each set. seed changes the samples, not the picture. */
+WO_NODISCARD wo_status wo_thin_pencils_create(const wo_context *context, const wo_thin_lens *lens,
+                                              const wo_aperture *aperture, double stretch, int count,
+                                              uint32_t seed, wo_thin_pencils **pencils,
+                                              wo_error *error);
+void wo_thin_pencils_destroy(const wo_context *context, wo_thin_pencils **pencils);
+wo_lens wo_thin_pencils_lens(const wo_thin_pencils *pencils);
+
+/* Mixes the bits of a 32-bit number; for choosing pencils. */
+static inline uint32_t wo_hash(uint32_t x)
+{
+    x ^= x >> 16;
+    x *= 0x21f0aaadu;
+    x ^= x >> 15;
+    x *= 0xd35a2d97u;
+    x ^= x >> 15;
+    return x;
+}
+
+#endif

@@ -1,0 +1,430 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "guard.hh"
+#include "image_io_private.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include <unistd.h>
+
+namespace
+{
+
+/* The library writes through this, so that a full disk is noticed whatever a format's writer does
+   with its return values. */
+class Drain final : public OIIO::Filesystem::IOProxy
+{
+public:
+    explicit Drain(const char *path, int fd) : IOProxy(path, Write), m_fd(fd) {}
+    const char *proxytype() const override { return "file"; }
+    size_t write(const void *buffer, size_t size) override
+    {
+        const size_t done = pwrite(buffer, size, m_pos);
+        m_pos += static_cast<int64_t>(done);
+        return done;
+    }
+    size_t pwrite(const void *buffer, size_t size, int64_t offset) override
+    {
+        size_t done = 0;
+        while (done < size) {
+            const ssize_t put = ::pwrite(m_fd, static_cast<const char *>(buffer) + done,
+                                         size - done, offset + static_cast<int64_t>(done));
+            if (put < 0 && errno == EINTR)
+                continue;
+            if (put <= 0) {
+                if (!m_failure)
+                    m_failure = put < 0 ? errno : EIO;
+                break;
+            }
+            done += static_cast<size_t>(put);
+        }
+        m_size = std::max(m_size, static_cast<size_t>(offset) + done);
+        return done;
+    }
+    /* Some writers (TIFF) read back what they wrote. */
+    size_t read(void *buffer, size_t size) override
+    {
+        const size_t done = pread(buffer, size, m_pos);
+        m_pos += static_cast<int64_t>(done);
+        return done;
+    }
+    size_t pread(void *buffer, size_t size, int64_t offset) override
+    {
+        const ssize_t got = ::pread(m_fd, buffer, size, offset);
+        return got > 0 ? static_cast<size_t>(got) : 0;
+    }
+    size_t size() const override { return m_size; }
+    int failure() const { return m_failure; }
+
+private:
+    int m_fd;
+    int m_failure = 0;
+    size_t m_size = 0;
+};
+
+std::string one_line(std::string words)
+{
+    std::replace(words.begin(), words.end(), '\n', ' ');
+    while (!words.empty() && words.back() == ' ')
+        words.pop_back();
+    return words.empty() ? "the image library gives no reason" : words;
+}
+
+/* The library keeps its words per thread and per reader: fetched at once, both places emptied. */
+template <typename Object> std::string words_of(Object *object)
+{
+    const std::string general = OIIO::geterror();
+    const std::string own = object ? object->geterror() : std::string();
+    return one_line(own.empty() ? general : own);
+}
+
+wo_status failure(wo_error *error, wo_status status, const char *path, const std::string &words)
+{
+    return wo_fail(error, status, "%s: %s", wo_io_shown(path), words.c_str());
+}
+
+/* Attributes. */
+
+template <typename Number>
+std::string print_numbers(const OIIO::ParamValue &value, size_t count, const char *form)
+{
+    std::string text;
+    for (size_t i = 0; i < count; i++) {
+        char word[40];
+        std::snprintf(word, sizeof word, form, static_cast<const Number *>(value.data())[i]);
+        text += (i ? " " : "") + std::string(word);
+    }
+    return text;
+}
+
+const char *array_kind(OIIO::TypeDesc type, size_t count)
+{
+    if (type.basetype == OIIO::TypeDesc::FLOAT)
+        return count == 2 ? "v2f" : count == 3 ? "v3f" : count == 9 ? "m33f" : count == 16 ? "m44f" : "";
+    return count == 2 ? "v2i" : count == 3 ? "v3i" : count == 4 ? "box2i" : "";
+}
+
+wo_status add_attribute(wo_io_part *part, const OIIO::ParamValue &value, wo_error *error)
+{
+    const OIIO::TypeDesc type = value.type();
+    const size_t count = type.basevalues();
+    const char *const name = value.name().c_str();
+    const bool is_int = type.basetype == OIIO::TypeDesc::INT;
+    const bool is_float = type.basetype == OIIO::TypeDesc::FLOAT;
+
+    if (!*name || count < 1 || value.nvalues() != 1)
+        return WO_OK;
+    if (type == OIIO::TypeDesc::STRING)
+        return wo_io_part_add(part, name, WO_IO_TEXT, 0, value.get_string().c_str(), nullptr, error);
+    if (count == 1 && type.basetype != OIIO::TypeDesc::STRING) {
+        const bool fraction = is_float || type.basetype == OIIO::TypeDesc::DOUBLE ||
+                              type.basetype == OIIO::TypeDesc::HALF;
+        const double number = fraction && type.basetype == OIIO::TypeDesc::DOUBLE
+                                  ? *static_cast<const double *>(value.data())
+                              : fraction ? static_cast<double>(value.get_float())
+                                         : static_cast<double>(value.get_int());
+        return wo_io_part_add(part, name, fraction ? WO_IO_FLOAT : WO_IO_INT, number, nullptr,
+                              nullptr, error);
+    }
+    if (count > 16 || !(is_int || is_float))
+        return WO_OK;
+    const std::string text = is_int ? print_numbers<int>(value, count, "%d")
+                                    : print_numbers<float>(value, count, "%.9g");
+    return wo_io_part_add(part, name, WO_IO_TEXT, 0, text.c_str(), array_kind(type, count), error);
+}
+
+/* Reading. */
+
+wo_rect rectangle(int64_t x1, int64_t y1, int64_t width, int64_t height)
+{
+    const auto cut = [](int64_t value) {
+        return static_cast<int32_t>(std::clamp<int64_t>(value, INT32_MIN, INT32_MAX));
+    };
+    return {cut(x1), cut(y1), cut(x1 + width), cut(y1 + height)};
+}
+
+int bits_of(const OIIO::ImageSpec &spec)
+{
+    const int said = spec.get_int_attribute("oiio:BitsPerSample", 0);
+    return said > 0 && said <= 32 ? said : static_cast<int>(spec.format.size() * 8);
+}
+
+wo_status fill_head(wo_io_part *part, const char *path, const OIIO::ImageSpec &spec,
+                    uint64_t *bytes, wo_error *error)
+{
+    const bool framed = spec.full_width > 0 && spec.full_height > 0;
+    const int64_t frame_width = framed ? spec.full_width : spec.width;
+    const int64_t frame_height = framed ? spec.full_height : spec.height;
+    const int64_t left = framed ? int64_t(spec.x) - spec.full_x : 0;
+    const int64_t top = framed ? int64_t(spec.y) - spec.full_y : 0;
+    const wo_rect data =
+        rectangle(left, frame_height - top - spec.height, spec.width, spec.height);
+    const wo_rect display = rectangle(0, 0, frame_width, frame_height);
+
+    WO_TRY(wo_io_check_size(path, data, display, spec.nchannels, bytes, error));
+    if (spec.depth > 1 || spec.deep)
+        return wo_fail(error, WO_ERR_UNSUPPORTED, "%s: volumes and deep pictures of this format",
+                       wo_io_shown(path));
+    std::vector<const char *> names;
+    for (int i = 0; i < spec.nchannels; i++)
+        names.push_back(spec.channelnames[static_cast<size_t>(i)].c_str());
+    WO_TRY(wo_io_part_head(part, spec.get_string_attribute("oiio:subimagename").c_str(), data,
+                           display, names.data(), spec.nchannels, error));
+    const double aspect = static_cast<double>(spec.get_float_attribute("PixelAspectRatio", 1.0f));
+    part->pixel_aspect = aspect > 0 && aspect < 1e6 ? aspect : 1;
+    part->bits = bits_of(spec);
+    part->is_float = spec.format.is_floating_point();
+    for (const OIIO::ParamValue &value : spec.extra_attribs)
+        if (value.name() != "PixelAspectRatio" && value.name() != "oiio:subimagename")
+            WO_TRY(add_attribute(part, value, error));
+    char *const space = wo_io_copy_text(spec.get_string_attribute("oiio:ColorSpace").c_str());
+    if (!space)
+        return wo_fail(error, WO_ERR_NOMEM, "no memory for a colour space");
+    std::free(part->colour_space);
+    part->colour_space = space;
+    return WO_OK;
+}
+
+void flip_rows(wo_io_part *part)
+{
+    const size_t row = static_cast<size_t>(wo_rect_width(part->data_window)) *
+                       static_cast<size_t>(part->channels);
+    const size_t height = static_cast<size_t>(wo_rect_height(part->data_window));
+    for (size_t y = 0; y < height / 2; y++)
+        std::swap_ranges(part->pixels + y * row, part->pixels + (y + 1) * row,
+                         part->pixels + (height - 1 - y) * row);
+}
+
+/* Headers that claim far more than any of these formats can pack into the file's length. */
+wo_status check_plausible(const char *path, const OIIO::ImageSpec &spec, wo_error *error)
+{
+    const uint64_t file = OIIO::Filesystem::file_size(path);
+    if (spec.image_bytes(true) / 4096 > file)
+        return wo_fail(error, WO_ERR_FORMAT, "%s: the file is too short for its picture",
+                       wo_io_shown(path));
+    return WO_OK;
+}
+
+/* One subimage; *spec is what its header says. */
+wo_status read_part(OIIO::ImageInput *input, const char *path, int index, bool headers_only,
+                    wo_io_part *part, uint64_t *bytes, wo_error *error)
+{
+    const OIIO::ImageSpec spec = input->spec(index);
+    if (spec.nchannels < 1)
+        return failure(error, WO_ERR_FORMAT, path, words_of(input));
+    WO_TRY(fill_head(part, path, spec, bytes, error));
+    if (headers_only)
+        return WO_OK;
+    WO_TRY(check_plausible(path, spec, error));
+    WO_TRY(wo_io_part_pixels(part, error));
+    if (!input->read_image(index, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, part->pixels))
+        return failure(error, WO_ERR_FORMAT, path, words_of(input));
+    flip_rows(part);
+    return WO_OK;
+}
+
+wo_status read_file(const char *path, const wo_io_format *format, bool headers_only,
+                    wo_io_file **file, wo_error *error)
+{
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format->library_name);
+    if (!input)
+        return failure(error, WO_ERR_UNSUPPORTED, path, words_of<OIIO::ImageInput>(nullptr));
+    OIIO::ImageSpec first, config;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    input->threads(1);
+    if (!input->open(path, first, config))
+        return failure(error, WO_ERR_FORMAT, path, words_of(input.get()));
+
+    int count = 1;
+    while (count <= WO_IO_MAX_PARTS && input->seek_subimage(count, 0))
+        count++;
+    (void)words_of(input.get());
+    if (count > WO_IO_MAX_PARTS)
+        return wo_fail(error, WO_ERR_RANGE, "%s: more than %d pictures in one file",
+                       wo_io_shown(path), WO_IO_MAX_PARTS);
+    WO_TRY(wo_io_file_create(static_cast<size_t>(count), file, error));
+    std::free((*file)->format);
+    (*file)->format = wo_io_copy_text(format->library_name);
+    if (!(*file)->format)
+        return wo_fail(error, WO_ERR_NOMEM, "no memory for an image file");
+    uint64_t bytes = 0;
+    for (int i = 0; i < count; i++)
+        WO_TRY(read_part(input.get(), path, i, headers_only, &(*file)->parts[i], &bytes, error));
+    return WO_OK;
+}
+
+/* Writing. */
+
+/* The display window of the part, top row first, cut to channels, ready for the library. */
+std::vector<float> picture_of(const wo_io_part *part, int channels, bool integers)
+{
+    const wo_rect window = part->display_window, data = part->data_window;
+    const wo_rect seen = wo_rect_intersect(window, data);
+    const auto width = static_cast<size_t>(wo_rect_width(window));
+    const auto height = static_cast<size_t>(wo_rect_height(window));
+    const auto data_width = static_cast<size_t>(wo_rect_width(data));
+    const auto from_stride = static_cast<size_t>(part->channels);
+    const auto to_stride = static_cast<size_t>(channels);
+    std::vector<float> pixels(width * height * to_stride, 0.0f);
+
+    for (int32_t y = seen.y1; y < seen.y2; y++) {
+        const float *from = part->pixels + (static_cast<size_t>(y - data.y1) * data_width +
+                                            static_cast<size_t>(seen.x1 - data.x1)) *
+                                               from_stride;
+        float *to = pixels.data() + (static_cast<size_t>(window.y2 - 1 - y) * width +
+                                     static_cast<size_t>(seen.x1 - window.x1)) *
+                                        to_stride;
+        for (int32_t x = seen.x1; x < seen.x2; x++, from += from_stride, to += to_stride)
+            for (size_t c = 0; c < to_stride; c++) {
+                const float value = from[std::min(c, from_stride - 1)];
+                to[c] = !integers ? value : value >= 0.0f ? std::min(value, 1.0f) : 0.0f;
+            }
+    }
+    return pixels;
+}
+
+OIIO::ImageSpec spec_of(const wo_io_part *part, const wo_io_format *format, int channels,
+                        wo_io_depth depth)
+{
+    const wo_io_depth chosen = depth == WO_IO_AUTO ? format->automatic : depth;
+    const OIIO::TypeDesc type = chosen == WO_IO_BYTE     ? OIIO::TypeDesc::UINT8
+                                : chosen == WO_IO_SINGLE ? OIIO::TypeDesc::FLOAT
+                                                         : OIIO::TypeDesc::UINT16;
+    OIIO::ImageSpec spec(wo_rect_width(part->display_window), wo_rect_height(part->display_window),
+                         channels, type);
+    if (chosen == WO_IO_AUTO)
+        spec.attribute("oiio:BitsPerSample", 10);
+    for (size_t i = 0; i < part->attribute_count; i++) {
+        const wo_io_attribute *const a = &part->attributes[i];
+        const std::string name = a->name;
+        if (name.compare(0, 5, "oiio:") == 0 || name.compare(0, 5, "tiff:") == 0 ||
+            name.compare(0, 4, "dpx:") == 0 || name == "compression" || a->kind[0])
+            continue;
+        if (a->type == WO_IO_TEXT)
+            spec.attribute(name, a->text);
+        else if (a->type == WO_IO_INT)
+            spec.attribute(name, static_cast<int>(std::lrint(a->number)));
+        else
+            spec.attribute(name, static_cast<float>(a->number));
+    }
+    if (part->pixel_aspect > 0 && part->pixel_aspect < 1e6)
+        spec.attribute("PixelAspectRatio", static_cast<float>(part->pixel_aspect));
+    if (part->colour_space && part->colour_space[0])
+        spec.attribute("oiio:ColorSpace", part->colour_space);
+    spec.alpha_channel = channels == 4 ? 3 : channels == 2 ? 1 : -1;
+    /* Values go out as they are. TIFF can say which kind of alpha it holds; for the others the
+       hint keeps the library from dividing. */
+    const wo_io_attribute *const separate = wo_io_part_find(part, "oiio:UnassociatedAlpha");
+    const bool is_tiff = !std::strcmp(format->library_name, "tiff");
+    if (!is_tiff || (separate && separate->number != 0))
+        spec.attribute("oiio:UnassociatedAlpha", 1);
+    if (!std::strcmp(format->library_name, "jpeg"))
+        spec.attribute("Compression", "jpeg:95");
+    return spec;
+}
+
+int channels_written(const wo_io_part *part, const wo_io_format *format)
+{
+    int channels = part->channels;
+    if (!format->has_alpha && (channels == 2 || channels == 4))
+        channels--;
+    return channels == 1 && !format->has_grey ? 3 : channels;
+}
+
+wo_status write_file(const char *path, int fd, const wo_io_format *format, const wo_io_part *part,
+                     wo_io_depth depth, wo_error *error)
+{
+    const int channels = channels_written(part, format);
+    const OIIO::ImageSpec spec = spec_of(part, format, channels, depth);
+    const std::vector<float> pixels =
+        picture_of(part, channels, !spec.format.is_floating_point());
+    Drain drain(path, fd);
+    bool written = false;
+    std::string words;
+    {
+        const std::unique_ptr<OIIO::ImageOutput> output =
+            OIIO::ImageOutput::create(format->library_name);
+        if (!output || !output->supports("ioproxy"))
+            return failure(error, WO_ERR_UNSUPPORTED, path, words_of(output.get()));
+        output->threads(1);
+        output->set_ioproxy(&drain);
+        const std::string name = std::string("image.") + format->extension;
+        written = output->open(name, spec) &&
+                  output->write_image(OIIO::TypeDesc::FLOAT, pixels.data()) && output->close();
+        if (!written)
+            words = words_of(output.get());
+    }
+    (void)OIIO::geterror();
+    if (drain.failure())
+        return failure(error, WO_ERR_IO, path, std::generic_category().message(drain.failure()));
+    return written ? WO_OK : failure(error, WO_ERR_LIBRARY, path, words);
+}
+
+/* Pixels of one EXR part into a part whose channels may be in another order. */
+wo_status read_exr_part(const char *path, int index, wo_io_part *part, wo_error *error)
+{
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create("openexr");
+    OIIO::ImageSpec spec;
+    if (!input)
+        return failure(error, WO_ERR_UNSUPPORTED, path, words_of<OIIO::ImageInput>(nullptr));
+    input->threads(1);
+    if (!input->open(path, spec) || !input->seek_subimage(index, 0))
+        return failure(error, WO_ERR_FORMAT, path, words_of(input.get()));
+    spec = input->spec(index);
+    if (spec.width != wo_rect_width(part->data_window) ||
+        spec.height != wo_rect_height(part->data_window) || spec.nchannels != part->channels ||
+        spec.deep)
+        return failure(error, WO_ERR_FORMAT, path, "two libraries read its header differently");
+    std::vector<float> pixels(static_cast<size_t>(spec.image_pixels()) *
+                              static_cast<size_t>(spec.nchannels));
+    if (!input->read_image(index, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()))
+        return failure(error, WO_ERR_FORMAT, path, words_of(input.get()));
+    const auto stride = static_cast<size_t>(spec.nchannels);
+    for (size_t c = 0; c < stride; c++) {
+        const int from = spec.channelindex(part->channel_names[c]);
+        if (from < 0)
+            return failure(error, WO_ERR_FORMAT, path, "two libraries name its channels differently");
+        for (size_t i = 0; i < spec.image_pixels(); i++)
+            part->pixels[i * stride + c] = pixels[i * stride + static_cast<size_t>(from)];
+    }
+    flip_rows(part);
+    return WO_OK;
+}
+
+} // namespace
+
+extern "C" wo_status wo_io_oiio_read(const char *path, const wo_io_format *format,
+                                     bool headers_only, wo_io_file **file, wo_error *error)
+{
+    return wo_guard(error, __func__, [&]() -> wo_status {
+        return read_file(path, format, headers_only, file, error);
+    });
+}
+
+extern "C" wo_status wo_io_oiio_write(const char *path, int fd, const wo_io_format *format,
+                                      const wo_io_part *part, wo_io_depth depth, wo_error *error)
+{
+    return wo_guard(error, __func__, [&]() -> wo_status {
+        return write_file(path, fd, format, part, depth, error);
+    });
+}
+
+extern "C" wo_status wo_io_oiio_exr_pixels(const char *path, int part_index, wo_io_part *part,
+                                           wo_error *error)
+{
+    return wo_guard(error, __func__, [&]() -> wo_status {
+        return read_exr_part(path, part_index, part, error);
+    });
+}

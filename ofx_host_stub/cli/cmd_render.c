@@ -1,0 +1,472 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "picture_file.h"
+#include "render_job.h"
+#include "session.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const wo_option options[] = {
+    {"--clip", NULL, "NAME=FILE[:CHANNELS]",
+     "Connect a clip. FILE may be a sequence (%04d or ####). CHANNELS picks channels, a layer or a part "
+     "of the file: Z, R,G,B, diffuse, layer2, layer2:Z.",
+     true},
+    {"--set", NULL, "NAME=VALUE",
+     "Set a parameter: a number, x,y, r,g,b, true, the name of a choice. NAME=@1:2.8,@25:16 sets keys "
+     "at frames, straight lines between them.",
+     true},
+    {"--output", "-o", "FILE",
+     "Where the picture goes: exr png tif tiff jpg dpx hdr tga bmp ppm. It appears under this name only "
+     "when it is complete.",
+     false},
+    {"--frames", NULL, "LIST", "Frames: 12, 1001-1100, 1-100x2, several joined by commas.", false},
+    {"--context", NULL, "NAME",
+     "General, Filter or Generator; without it the first of these that the plugin has.", false},
+    {"--window", NULL, "X1,Y1,X2,Y2",
+     "Render only these pixels (half open, y up, at the render scale); the output's data window.",
+     false},
+    {"--scale", NULL, "S", "Render scale, 0.01..1: 0.5 makes a picture of half the width.", false},
+    {"--tile", NULL, "N", "Ask the plugin for tiles of N x N pixels, 8..65536.", false},
+    {"--size", NULL, "WxH", "Size of the picture when there is no input; 1920x1080.", false},
+    {"--threads", NULL, "N", "Threads the plugin may use; all cores.", false},
+    {"--in-space", NULL, "NAME",
+     "Colour space of the input files; otherwise by the rules of the colour configuration. Mattes, "
+     "depth and other numbers are never converted.",
+     false},
+    {"--out-space", NULL, "NAME",
+     "Colour space of the output; otherwise by the rules of the configuration for its name.", false},
+    {"--ocio", NULL, "FILE",
+     "OpenColorIO configuration; otherwise that of the variable OCIO, otherwise WideOpen's own.",
+     false},
+    {"--raw", NULL, "NAME", "Take this clip as numbers, not colours.", true},
+    {"--bits", NULL, "KIND",
+     "Samples of the output: auto, 8, 16, half or float; auto is half in EXR.", false},
+    {"--no-metadata", NULL, NULL,
+     "Do not take focalLength, sensorWidth, fStop and focusDistance from the wideopen: attributes of "
+     "Source. What --set says always wins.",
+     false},
+    {"--explain", NULL, NULL, "Print what would be done, on stdout, and render nothing.", false},
+    {"--report", NULL, "FILE", "Write what was done and what it cost, as JSON.", false},
+    {"--json", NULL, NULL, "Print the same JSON on stdout.", false},
+    {"--strict", NULL, NULL,
+     "Guard the plugin's memory, and end with code 1 when it breaks the rules of OpenFX. Breaches are "
+     "always printed.",
+     false},
+    {"--progress", NULL, NULL, "Draw the progress bar even when stderr is no terminal.", false},
+    {"--no-progress", NULL, NULL, "Draw no progress bar.", false},
+    WO_OPTION_PLUGIN_PATH,
+    WO_OPTION_NOTES,
+};
+
+static const wo_usage usage = {
+    .command = "render",
+    .synopsis = "PLUGIN --clip NAME=FILE ... [--set NAME=VALUE ...] -o FILE",
+    .about =
+        "Runs a plugin on image files. PLUGIN is an identifier or its last part; wideopen render "
+        "PLUGIN --help lists its clips and parameters, too.\n"
+        "The display window of Source is the project, its data window the region of definition; its "
+        "attributes are carried to the output. The plugin sees scene-linear Rec.709. An interrupt "
+        "(Ctrl-C) stops the render, removes what is half written and ends with code 130.",
+    .positionals = "PLUGIN",
+    .positionals_min = 1,
+    .positionals_max = 1,
+    .options = options,
+    .option_count = WO_COUNT(options),
+    .after = "Examples:\n"
+             "  wideopen render LensBlur --clip Source=shot.exr --clip Depth=shot.exr:Z \\\n"
+             "      --set fStop=1.4 --set focusDistance=2.5 -o out.exr\n"
+             "  wideopen render LensBlur --clip Source=a.####.exr --clip Depth=z.####.exr \\\n"
+             "      --frames 1001-1100 --set focusDistance=@1001:2,@1100:8 -o out.####.exr\n",
+};
+
+/* ----------------------------------------------------------------------- reading the command line */
+
+static int read_window(wo_render_job *job)
+{
+    const char *const text = wo_args_value(job->args, "--window", 0);
+    double v[4];
+    if (!text)
+        return WO_EXIT_OK;
+    bool legal = wo_read_numbers(text, v, 4) && v[0] < v[2] && v[1] < v[3];
+    for (int i = 0; legal && i < 4; i++)
+        legal = floor(v[i]) == v[i] && fabs(v[i]) <= WO_MAX_COORDINATE;
+    if (!legal)
+        return wo_usage_fault("render",
+                              "--window is \"%s\", but must be four whole numbers x1,y1,x2,y2 with "
+                              "x1 < x2 and y1 < y2",
+                              text);
+    job->render.window = (wo_rect){(int32_t)v[0], (int32_t)v[1], (int32_t)v[2], (int32_t)v[3]};
+    return WO_EXIT_OK;
+}
+
+static int read_bits(wo_render_job *job)
+{
+    static const char *const words[] = {"auto", "8", "16", "half", "float"};
+    static const wo_io_depth depths[] = {WO_IO_AUTO, WO_IO_BYTE, WO_IO_SHORT, WO_IO_HALF,
+                                         WO_IO_SINGLE};
+    const char *const text = wo_args_value(job->args, "--bits", 0);
+    for (size_t i = 0; i < WO_COUNT(words); i++)
+        if (!text || strcmp(text, words[i]) == 0) {
+            job->output.depth = depths[i];
+            return WO_EXIT_OK;
+        }
+    return wo_usage_fault("render", "--bits is \"%s\", but must be auto, 8, 16, half or float", text);
+}
+
+static int read_numbers(wo_render_job *job)
+{
+    double scale = 1;
+    int tile = 0;
+    if (!wo_args_double(job->args, "--scale", 0.01, 1, &scale) ||
+        !wo_args_int(job->args, "--tile", 8, WO_MAX_SIDE, &tile))
+        return WO_EXIT_USAGE;
+    job->render = (wo_host_render_args)WO_HOST_RENDER_INIT;
+    job->render.scale_x = job->render.scale_y = scale;
+    job->render.tile_width = job->render.tile_height = tile;
+    const char *const size = wo_args_value(job->args, "--size", 0);
+    int width = 1920, height = 1080;
+    if (size && !wo_read_size(size, &width, &height))
+        return wo_usage_fault("render", "--size is \"%s\", but must be WIDTHxHEIGHT, 1..65536 each",
+                              size);
+    job->project = (wo_rect){0, 0, width, height};
+    job->pixel_aspect = 1;
+    const int code = read_window(job);
+    return code == WO_EXIT_OK ? read_bits(job) : code;
+}
+
+static bool any_sequence(const wo_args *args)
+{
+    for (int i = 0; i < wo_args_count(args, "--clip"); i++)
+        if (wo_io_is_sequence(wo_args_value(args, "--clip", i)))
+            return true;
+    return false;
+}
+
+static int read_frames(wo_render_job *job)
+{
+    const char *const text = wo_args_value(job->args, "--frames", 0);
+    const char *const output = wo_args_value(job->args, "--output", 0);
+    wo_error error = {0};
+    if (!text && any_sequence(job->args))
+        return wo_usage_fault("render", "a clip is a sequence: say which frames, --frames 1-100");
+    const wo_status status = wo_frames_read(text ? text : "1", &job->frames, &error);
+    if (status == WO_ERR_NOMEM)
+        return wo_failure(&error);
+    if (status != WO_OK)
+        return wo_usage_fault("render", "--frames: %s", error.text);
+    if (!job->explain && !output)
+        return wo_usage_fault("render", "where should the picture go? give -o FILE");
+    if (!job->explain && job->frames.count > 1 && !wo_io_is_sequence(output))
+        return wo_usage_fault("render",
+                              "%zu frames would all be written to %s; put #### into its name",
+                              job->frames.count, output);
+    job->output.pattern = output;
+    return WO_EXIT_OK;
+}
+
+static int read_job(wo_render_job *job)
+{
+    const wo_args *const args = job->args;
+    job->explain = wo_args_count(args, "--explain") > 0;
+    job->metadata = wo_args_count(args, "--no-metadata") == 0;
+    job->output.space = wo_args_value(args, "--out-space", 0);
+    const int code = read_numbers(job);
+    return code == WO_EXIT_OK ? read_frames(job) : code;
+}
+
+/* ------------------------------------------------------------------------------------- the plugin */
+
+static int open_plugin(wo_render_job *job)
+{
+    wo_host_config config = {.background = true,
+                             .user = job,
+                             .progress = wo_render_progress,
+                             .aborted = wo_interrupted};
+    int threads = 0;
+    if (!wo_args_int(job->args, "--threads", 1, 1024, &threads))
+        return WO_EXIT_USAGE;
+    config.threads = (unsigned)threads;
+    config.strict = wo_args_count(job->args, "--strict") > 0;
+    const int code = wo_session_open(job->args, config, &job->host);
+    if (code != WO_EXIT_OK)
+        return code;
+    if (wo_args_count(job->args, "--notes"))
+        wo_session_notes(job->host);
+    job->plugin = wo_session_plugin(job->host, job->args->positionals[0]);
+    if (job->plugin)
+        job->context = wo_session_context(job->plugin, wo_args_value(job->args, "--context", 0),
+                                          "render");
+    return job->context ? WO_EXIT_OK : WO_EXIT_USAGE;
+}
+
+static int print_help(wo_render_job *job)
+{
+    wo_args_help(&usage, stdout);
+    if (job->args->positional_count == 0)
+        return WO_EXIT_OK;
+    const int code = open_plugin(job);
+    if (code != WO_EXIT_OK)
+        return code;
+    printf("\nClips of %s (%s):\n", job->plugin->identifier, job->context->short_name);
+    wo_print_clips(stdout, job->context);
+    printf("\nParameters, for --set:\n");
+    wo_print_params(stdout, job->context);
+    return WO_EXIT_OK;
+}
+
+/* ---------------------------------------------------------------------------------------- the clips */
+
+static int unknown_clip(const wo_render_job *job, const char *name)
+{
+    char there[512] = "";
+    size_t used = 0;
+    for (size_t i = 0; i < job->context->clip_count && used < sizeof there; i++)
+        if (!job->context->clips[i].output)
+            used += (size_t)snprintf(there + used, sizeof there - used, "%s%s", used ? ", " : "",
+                                     job->context->clips[i].name);
+    return wo_usage_fault("render", "%s has no clip \"%s\"; it has: %s", job->plugin->identifier,
+                          name, there);
+}
+
+static int add_clip(wo_render_job *job, const char *text)
+{
+    const char *const equals = strchr(text, '=');
+    char name[128];
+    if (!equals || equals == text || (size_t)(equals - text) >= sizeof name || !equals[1])
+        return wo_usage_fault("render", "--clip is \"%s\", but must be NAME=FILE", text);
+    snprintf(name, sizeof name, "%.*s", (int)(equals - text), text);
+    const wo_host_clip_info *const clip = wo_host_find_clip(job->context, name);
+    if (!clip || clip->output)
+        return unknown_clip(job, name);
+    if (wo_inputs_find(job->inputs, clip->name))
+        return wo_usage_fault("render", "clip %s is given twice", clip->name);
+    wo_error error = {0};
+    if (wo_inputs_add(job->inputs, clip, equals + 1, job->frames.numbers[0], &error) != WO_OK)
+        return wo_failure(&error);
+    return WO_EXIT_OK;
+}
+
+static int add_clips(wo_render_job *job)
+{
+    for (int i = 0; i < wo_args_count(job->args, "--clip"); i++) {
+        const int code = add_clip(job, wo_args_value(job->args, "--clip", i));
+        if (code != WO_EXIT_OK)
+            return code;
+    }
+    for (size_t i = 0; i < job->context->clip_count; i++) {
+        const wo_host_clip_info *const clip = &job->context->clips[i];
+        if (!clip->output && !clip->optional && !wo_inputs_find(job->inputs, clip->name))
+            return wo_usage_fault("render", "%s needs clip %s: give --clip %s=FILE",
+                                  job->plugin->identifier, clip->name, clip->name);
+    }
+    for (int i = 0; i < wo_args_count(job->args, "--raw"); i++) {
+        const char *const name = wo_args_value(job->args, "--raw", i);
+        wo_input *const input = wo_inputs_find(job->inputs, name);
+        if (!input)
+            return wo_usage_fault("render", "--raw %s, but no --clip %s=FILE", name, name);
+        wo_input_set_raw(input, true);
+    }
+    return WO_EXIT_OK;
+}
+
+static int open_files(wo_render_job *job)
+{
+    wo_error error = {0};
+    if (wo_colour_create(wo_args_value(job->args, "--ocio", 0), &job->colour, &error) != WO_OK)
+        return wo_failure(&error);
+    job->output.colour = job->colour;
+    const char *const in_space = wo_args_value(job->args, "--in-space", 0);
+    if (wo_picture_check_space(job->colour, in_space, &error) != WO_OK)
+        return wo_usage_fault("render", "--in-space: %s", error.text);
+    if (wo_picture_check_space(job->colour, job->output.space, &error) != WO_OK)
+        return wo_usage_fault("render", "--out-space: %s", error.text);
+    if (wo_inputs_create(job->colour, in_space, &job->inputs, &error) != WO_OK)
+        return wo_failure(&error);
+    if (!job->explain && wo_output_check(&job->output, job->frames.first, &error) != WO_OK)
+        return wo_failure(&error);
+    return add_clips(job);
+}
+
+/* ------------------------------------------------------------------------------------- the instance */
+
+static void choose_project(wo_render_job *job)
+{
+    const wo_input *main = wo_inputs_find(job->inputs, "Source");
+    if (!main)
+        main = wo_inputs_at(job->inputs, 0);
+    if (!main)
+        return;
+    const wo_io_part *const header = wo_input_header(main);
+    job->project = header->display_window;
+    job->pixel_aspect = isfinite(header->pixel_aspect) && header->pixel_aspect > 0
+                            ? header->pixel_aspect
+                            : 1;
+}
+
+static wo_status connect_clips(wo_render_job *job, wo_error *error)
+{
+    for (size_t i = 0; wo_inputs_at(job->inputs, i); i++) {
+        wo_input *const input = wo_inputs_at(job->inputs, i);
+        const wo_host_source source = wo_input_source(input, job->frames.first, job->frames.last);
+        WO_TRY(wo_host_set_clip(job->instance, wo_input_clip(input), &source, error));
+    }
+    return WO_OK;
+}
+
+/* Clips for which the plugin wants numbers are raw, whatever they look like. */
+static wo_status follow_wishes(wo_render_job *job, wo_error *error)
+{
+    const wo_host_preferences *preferences = NULL;
+    bool changed = false;
+    WO_TRY(wo_host_get_preferences(job->instance, &preferences, error));
+    for (size_t i = 0; i < preferences->clip_count; i++) {
+        const wo_host_clip_preference *const wish = &preferences->clips[i];
+        wo_input *const input = wo_inputs_find(job->inputs, wish->clip);
+        if (input && wish->colourspace_count > 0 && !wo_input_is_raw(input) &&
+            strcmp(wish->colourspaces[0], WO_OFX_SPACE_RAW) == 0) {
+            wo_input_set_raw(input, true);
+            changed = true;
+        }
+    }
+    return changed ? connect_clips(job, error) : WO_OK;
+}
+
+static wo_status make_instance(wo_render_job *job, wo_error *error)
+{
+    choose_project(job);
+    const wo_rect p = job->project;
+    wo_host_project project = WO_HOST_PROJECT_INIT;
+    project.size[0] = wo_rect_width(p) * job->pixel_aspect;
+    project.size[1] = wo_rect_height(p);
+    project.offset[0] = p.x1 * job->pixel_aspect;
+    project.offset[1] = p.y1;
+    project.pixel_aspect = job->pixel_aspect;
+    project.first_frame = job->frames.first;
+    project.last_frame = job->frames.last;
+    WO_TRY(wo_host_instance_create(job->host, job->plugin, job->context->name, &project,
+                                   &job->instance, error));
+    WO_TRY(connect_clips(job, error));
+    return follow_wishes(job, error);
+}
+
+static int unknown_param(const wo_render_job *job, const char *name)
+{
+    const size_t count = job->context->param_count;
+    const char **const names = malloc((count + 1) * sizeof *names);
+    char near[1024] = "";
+    size_t used = 0;
+    for (size_t i = 0; names && i < count; i++)
+        if (job->context->params[i].kind != WO_HOST_PARAM_GROUP &&
+            job->context->params[i].kind != WO_HOST_PARAM_PAGE)
+            names[used++] = job->context->params[i].script_name;
+    const int hits = names ? wo_near_words(name, names, used, near, sizeof near) : 0;
+    free(names);
+    return wo_usage_fault("render", "%s has no parameter \"%s\"; %s %s", job->plugin->identifier,
+                          name, hits ? "did you mean" : "there are", near);
+}
+
+/* "name=value", or "name@frame:value,..." for keys alone. */
+static int set_param(wo_render_job *job, const char *text)
+{
+    const size_t length = strcspn(text, "=@");
+    char name[128];
+    if (length == 0 || length >= sizeof name || !text[length])
+        return wo_usage_fault("render", "--set is \"%s\", but must be NAME=VALUE", text);
+    snprintf(name, sizeof name, "%.*s", (int)length, text);
+    const wo_host_param_info *const param = wo_host_find_param(job->context, name);
+    if (!param)
+        return unknown_param(job, name);
+    const char *const value = text[length] == '=' ? text + length + 1 : text;
+    wo_error error = {0};
+    if (wo_host_param_set_text(job->instance, param->name, value, &error) == WO_OK)
+        return WO_EXIT_OK;
+    return error.status == WO_ERR_NOMEM
+               ? wo_failure(&error)
+               : wo_usage_fault("render", "--set %s: %s", text, error.text);
+}
+
+/* ----------------------------------------------------------------------------------------- the run */
+
+static int write_reports(wo_render_job *job, const wo_error *failed)
+{
+    const char *const path = wo_args_value(job->args, "--report", 0);
+    wo_error error = {0};
+    if (wo_args_count(job->args, "--json"))
+        wo_record_write(&job->record, job->host, job->inputs, failed, stdout);
+    if (path &&
+        wo_record_save(&job->record, job->host, job->inputs, failed, path, &error) != WO_OK)
+        return wo_failure(&error);
+    return WO_EXIT_OK;
+}
+
+static int render_all(wo_render_job *job)
+{
+    wo_error error = {0};
+    int code = WO_EXIT_OK;
+    if (wo_render_frames(job, &error) != WO_OK)
+        code = wo_failure(&error);
+    if (!job->record.plugin && !wo_record_begin(&job->record, job->instance, job->frames.numbers[0]))
+        return WO_EXIT_FAILURE;
+    wo_host_instance_destroy(&job->instance); /* what it leaks becomes violations */
+    for (size_t i = 0; i < wo_host_violation_count(job->host); i++)
+        wo_message("violation: %s", wo_host_violation(job->host, i));
+    const int written = write_reports(job, code == WO_EXIT_OK ? NULL : &error);
+    if (code == WO_EXIT_OK)
+        code = written;
+    if (code == WO_EXIT_OK && wo_args_count(job->args, "--strict") &&
+        wo_host_violation_count(job->host) > 0) {
+        wo_message("%s broke the rules of OpenFX", job->plugin->identifier);
+        code = WO_EXIT_FAILURE;
+    }
+    return code;
+}
+
+static int run(wo_render_job *job)
+{
+    int code = read_job(job);
+    if (code == WO_EXIT_OK)
+        code = open_plugin(job);
+    if (code == WO_EXIT_OK)
+        code = open_files(job);
+    if (code != WO_EXIT_OK)
+        return code;
+    char made_by[256];
+    snprintf(made_by, sizeof made_by, "%s %u.%u", job->plugin->identifier,
+             job->plugin->version_major, job->plugin->version_minor);
+    job->output.made_by = made_by;
+    wo_error error = {0};
+    if (make_instance(job, &error) != WO_OK)
+        return wo_failure(&error);
+    for (int i = 0; i < wo_args_count(job->args, "--set"); i++) {
+        code = set_param(job, wo_args_value(job->args, "--set", i));
+        if (code != WO_EXIT_OK)
+            return code;
+    }
+    return render_all(job);
+}
+
+int wo_cmd_render(int argc, char **argv)
+{
+    wo_args args;
+    wo_render_job job = {.args = &args};
+    if (pthread_mutex_init(&job.lock, NULL) != 0) {
+        wo_message("the system has no lock left");
+        return WO_EXIT_FAILURE;
+    }
+    int code = wo_args_read(&args, &usage, argc, argv);
+    if (code == WO_EXIT_OK) {
+        wo_interrupt_catch();
+        code = args.help ? print_help(&job) : run(&job);
+    }
+    wo_host_instance_destroy(&job.instance);
+    wo_host_destroy(&job.host);
+    wo_inputs_destroy(&job.inputs);
+    wo_colour_destroy(&job.colour);
+    wo_record_free(&job.record);
+    wo_frames_free(&job.frames);
+    pthread_mutex_destroy(&job.lock);
+    wo_args_free(&args);
+    return code;
+}

@@ -1,0 +1,427 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "render_input.h"
+
+#include "picture_file.h"
+
+#include <limits.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+enum { PICTURES_MAX = 8, FILES_MAX = 4 };
+
+/* One frame of one clip. */
+typedef struct picture {
+    int frame;
+    bool linear;      /* colour conversion is done, or not needed */
+    wo_image image;   /* data is malloc-ed */
+    wo_io_file *file; /* headers only */
+    size_t part;      /* of the file */
+    unsigned long used;
+} picture;
+
+struct wo_input {
+    wo_inputs *inputs;
+    const wo_host_clip_info *clip;
+    char *pattern;
+    char *channels;
+    char *space;
+    bool sequence;
+    bool raw;
+    picture pictures[PICTURES_MAX];
+    size_t picture_count;
+    const picture *present;
+};
+
+/* A file with its pixels, kept while the clips of one frame are read: several clips often lie in one
+   multi-part file. */
+typedef struct open_file {
+    char path[PATH_MAX];
+    wo_io_file *file;
+} open_file;
+
+struct wo_inputs {
+    wo_colour *colour;
+    const char *in_space;
+    pthread_mutex_t lock; /* guards all below once a render runs */
+    wo_input *clips[WO_INPUTS_MAX];
+    size_t count;
+    open_file files[FILES_MAX];
+    size_t file_count, file_next;
+    unsigned long clock;
+};
+
+wo_status wo_inputs_create(wo_colour *colour, const char *in_space, wo_inputs **inputs,
+                           wo_error *error)
+{
+    *inputs = calloc(1, sizeof **inputs);
+    if (!*inputs)
+        return wo_fail(error, WO_ERR_NOMEM, "out of memory for the clips");
+    (*inputs)->colour = colour;
+    (*inputs)->in_space = in_space;
+    if (pthread_mutex_init(&(*inputs)->lock, NULL) != 0) {
+        free(*inputs);
+        *inputs = NULL;
+        return wo_fail(error, WO_ERR_NOMEM, "the system has no lock left");
+    }
+    return WO_OK;
+}
+
+static void picture_clear(picture *p)
+{
+    free(p->image.data);
+    wo_io_file_destroy(&p->file);
+    *p = (picture){0};
+}
+
+static void files_close(wo_inputs *inputs)
+{
+    for (size_t i = 0; i < inputs->file_count; i++)
+        wo_io_file_destroy(&inputs->files[i].file);
+    inputs->file_count = inputs->file_next = 0;
+}
+
+static void input_free(wo_input *input)
+{
+    if (!input)
+        return;
+    for (size_t i = 0; i < input->picture_count; i++)
+        picture_clear(&input->pictures[i]);
+    free(input->pattern);
+    free(input->channels);
+    free(input->space);
+    free(input);
+}
+
+void wo_inputs_destroy(wo_inputs **inputs)
+{
+    if (!*inputs)
+        return;
+    for (size_t i = 0; i < (*inputs)->count; i++)
+        input_free((*inputs)->clips[i]);
+    files_close(*inputs);
+    pthread_mutex_destroy(&(*inputs)->lock);
+    free(*inputs);
+    *inputs = NULL;
+}
+
+/* ------------------------------------------------------------------------------- reading files */
+
+static wo_status open_cached(wo_inputs *inputs, const char *path, const wo_io_file **file,
+                             wo_error *error)
+{
+    for (size_t i = 0; i < inputs->file_count; i++)
+        if (strcmp(inputs->files[i].path, path) == 0) {
+            *file = inputs->files[i].file;
+            return WO_OK;
+        }
+    wo_io_file *fresh = NULL;
+    WO_TRY(wo_io_read(path, false, &fresh, error));
+    open_file *const slot = &inputs->files[inputs->file_next];
+    wo_io_file_destroy(&slot->file);
+    snprintf(slot->path, sizeof slot->path, "%s", path);
+    slot->file = fresh;
+    inputs->file_next = (inputs->file_next + 1) % FILES_MAX;
+    if (inputs->file_count < FILES_MAX)
+        inputs->file_count++;
+    *file = fresh;
+    return WO_OK;
+}
+
+static wo_status read_picture(wo_input *input, int frame, picture *p, wo_error *error)
+{
+    char path[PATH_MAX];
+    const wo_io_file *file;
+    const wo_io_part *part = NULL;
+    WO_TRY(wo_io_frame_path(input->pattern, frame, path, sizeof path, error));
+    WO_TRY(open_cached(input->inputs, path, &file, error));
+    WO_TRY(wo_io_select(file, input->channels, &p->image, &part, error));
+    p->frame = frame;
+    p->part = (size_t)(part - file->parts);
+    WO_TRY(wo_io_read(path, true, &p->file, error));
+    if (p->part >= p->file->part_count)
+        return wo_fail(error, WO_ERR_FORMAT, "%s changed while it was read", path);
+    return WO_OK;
+}
+
+static wo_status make_linear(wo_input *input, picture *p, wo_error *error)
+{
+    if (p->linear)
+        return WO_OK;
+    if (!input->raw)
+        WO_TRY(wo_picture_linear(input->inputs->colour, &p->file->parts[p->part], input->space,
+                                 &p->image, error));
+    p->linear = true;
+    return WO_OK;
+}
+
+static picture *free_slot(wo_input *input)
+{
+    const size_t room = input->clip->temporal ? PICTURES_MAX : 2;
+    if (input->picture_count < room)
+        return &input->pictures[input->picture_count++];
+    picture *oldest = NULL;
+    for (size_t i = 0; i < input->picture_count; i++) {
+        picture *const p = &input->pictures[i];
+        if (p != input->present && (!oldest || p->used < oldest->used))
+            oldest = p;
+    }
+    picture_clear(oldest);
+    return oldest;
+}
+
+/* The picture of a frame, read now if it is not held; a still has one for all frames. */
+static wo_status fetch(wo_input *input, int frame, picture **found, wo_error *error)
+{
+    const int wanted = input->sequence ? frame : 0;
+    *found = NULL;
+    for (size_t i = 0; i < input->picture_count && !*found; i++)
+        if (input->pictures[i].file && input->pictures[i].frame == wanted)
+            *found = &input->pictures[i];
+    if (!*found) {
+        picture fresh = {0};
+        const wo_status status = read_picture(input, wanted, &fresh, error);
+        if (status != WO_OK) {
+            picture_clear(&fresh);
+            return status;
+        }
+        *found = free_slot(input);
+        **found = fresh;
+    }
+    (*found)->used = ++input->inputs->clock;
+    return WO_OK;
+}
+
+/* --------------------------------------------------------------------------------- the clips */
+
+/* Does the part have a vector's channel, "layer.X"? */
+static bool has_vector(const wo_io_part *part, const char *layer)
+{
+    const size_t length = strlen(layer);
+    for (int i = 0; i < part->channels; i++) {
+        const char *const name = part->channel_names[i];
+        if (strncasecmp(name, layer, length) == 0 && strcasecmp(name + length, ".X") == 0)
+            return true;
+    }
+    return false;
+}
+
+static bool is_colour(const wo_input *input)
+{
+    if (*input->channels == '\0')
+        return true;
+    if (input->present->image.components >= 3)
+        return !has_vector(wo_input_header(input), input->channels);
+    static const char *const single[] = {"Y", "R", "G", "B"};
+    const char *last = input->channels;
+    for (const char *letter = last; *letter; letter++)
+        if (*letter == '.' || *letter == ':')
+            last = letter + 1;
+    for (size_t i = 0; i < WO_COUNT(single); i++)
+        if (strcasecmp(last, single[i]) == 0)
+            return true;
+    return false;
+}
+
+static bool guess_raw(const wo_input *input)
+{
+    const bool source = strcmp(input->clip->name, "Source") == 0;
+    return input->clip->mask || !is_colour(input) ||
+           (!source && input->present->image.components == 1);
+}
+
+static wo_status choose_space(wo_input *input, int frame, wo_error *error)
+{
+    const wo_inputs *const inputs = input->inputs;
+    char path[PATH_MAX], space[256];
+    WO_TRY(wo_io_frame_path(input->pattern, frame, path, sizeof path, error));
+    if (inputs->in_space)
+        snprintf(space, sizeof space, "%s", inputs->in_space);
+    else
+        WO_TRY(wo_colour_of_file(inputs->colour, path, wo_input_header(input)->colour_space, space,
+                                 sizeof space, error));
+    input->space = strdup(space);
+    input->raw |= wo_colour_is_data(inputs->colour, space);
+    return input->space ? WO_OK : wo_fail(error, WO_ERR_NOMEM, "out of memory for a name");
+}
+
+static wo_status fill_input(wo_input *input, const char *spec, int frame, wo_error *error)
+{
+    picture *first;
+    WO_TRY(wo_picture_split(spec, frame, &input->pattern, &input->channels, error));
+    input->sequence = wo_io_is_sequence(input->pattern);
+    WO_TRY(fetch(input, frame, &first, error));
+    input->present = first;
+    input->raw = guess_raw(input);
+    return choose_space(input, frame, error);
+}
+
+wo_status wo_inputs_add(wo_inputs *inputs, const wo_host_clip_info *clip, const char *spec,
+                        int frame, wo_error *error)
+{
+    if (inputs->count >= WO_INPUTS_MAX)
+        return wo_fail(error, WO_ERR_RANGE, "more than %d clips", WO_INPUTS_MAX);
+    wo_input *const input = calloc(1, sizeof *input);
+    if (!input)
+        return wo_fail(error, WO_ERR_NOMEM, "out of memory for clip %s", clip->name);
+    input->inputs = inputs;
+    input->clip = clip;
+    const wo_status status = fill_input(input, spec, frame, error);
+    if (status != WO_OK)
+        input_free(input);
+    else
+        inputs->clips[inputs->count++] = input;
+    return status;
+}
+
+wo_input *wo_inputs_find(const wo_inputs *inputs, const char *clip)
+{
+    for (size_t i = 0; i < inputs->count; i++)
+        if (strcmp(inputs->clips[i]->clip->name, clip) == 0)
+            return inputs->clips[i];
+    return NULL;
+}
+
+wo_input *wo_inputs_at(const wo_inputs *inputs, size_t index)
+{
+    return index < inputs->count ? inputs->clips[index] : NULL;
+}
+
+/* Pictures that a clip of one frame at a time will not be asked for again. */
+static void drop_others(wo_input *input, int frame)
+{
+    input->present = NULL;
+    if (!input->sequence || input->clip->temporal)
+        return;
+    for (size_t i = 0; i < input->picture_count; i++)
+        if (input->pictures[i].frame != frame)
+            picture_clear(&input->pictures[i]);
+}
+
+static wo_status prepare_all(wo_inputs *inputs, int frame, wo_error *error)
+{
+    for (size_t i = 0; i < inputs->count; i++) {
+        wo_input *const input = inputs->clips[i];
+        picture *p;
+        drop_others(input, frame);
+        WO_TRY(fetch(input, frame, &p, error));
+        input->present = p;
+        WO_TRY(make_linear(input, p, error));
+    }
+    return WO_OK;
+}
+
+wo_status wo_inputs_prepare(wo_inputs *inputs, int frame, wo_error *error)
+{
+    pthread_mutex_lock(&inputs->lock);
+    const wo_status status = prepare_all(inputs, frame, error);
+    files_close(inputs);
+    pthread_mutex_unlock(&inputs->lock);
+    return status;
+}
+
+const char *wo_input_clip(const wo_input *input)
+{
+    return input->clip->name;
+}
+
+const char *wo_input_file(const wo_input *input)
+{
+    return input->pattern;
+}
+
+const char *wo_input_space(const wo_input *input)
+{
+    return input->raw ? "raw" : input->space;
+}
+
+bool wo_input_is_sequence(const wo_input *input)
+{
+    return input->sequence;
+}
+
+bool wo_input_is_raw(const wo_input *input)
+{
+    return input->raw;
+}
+
+void wo_input_set_raw(wo_input *input, bool raw)
+{
+    input->raw = raw;
+}
+
+const wo_io_part *wo_input_header(const wo_input *input)
+{
+    return &input->present->file->parts[input->present->part];
+}
+
+/* ------------------------------------------------------------------------------- the host's side */
+
+static double aspect_of(const picture *p)
+{
+    const double aspect = p->file->parts[p->part].pixel_aspect;
+    return isfinite(aspect) && aspect > 0 ? aspect : 1;
+}
+
+/* The linear picture at a time; the lock is held. A frame that is not on the disk is WO_ERR_NOT_FOUND. */
+static wo_status picture_at(wo_input *input, double time, picture **p, wo_error *error)
+{
+    const int frame = (int)lround(fmin(fmax(time, -1e8), 1e8));
+    if (input->sequence && !wo_picture_exists(input->pattern, frame))
+        return wo_fail(error, WO_ERR_NOT_FOUND, "%s has no frame %d", input->pattern, frame);
+    WO_TRY(fetch(input, frame, p, error));
+    return make_linear(input, *p, error);
+}
+
+static wo_status host_region(void *user, double time, wo_host_region *region, wo_error *error)
+{
+    wo_input *const input = user;
+    picture *p;
+    pthread_mutex_lock(&input->inputs->lock);
+    const wo_status status = picture_at(input, time, &p, error);
+    if (status == WO_OK) {
+        const wo_rect b = p->image.bounds;
+        const double aspect = aspect_of(p);
+        *region = (wo_host_region){b.x1 * aspect, b.y1, b.x2 * aspect, b.y2};
+    }
+    pthread_mutex_unlock(&input->inputs->lock);
+    return status;
+}
+
+static wo_status host_pixels(void *user, const wo_host_request *request, const wo_image *image,
+                             wo_error *error)
+{
+    wo_input *const input = user;
+    picture *p;
+    pthread_mutex_lock(&input->inputs->lock);
+    wo_status status = picture_at(input, request->time, &p, error);
+    if (status == WO_OK) {
+        wo_host_still still = {
+            .image = p->image, .pixel_aspect = aspect_of(p), .nearest = input->raw};
+        status = wo_host_still_pixels(&still, request, image, error);
+    }
+    pthread_mutex_unlock(&input->inputs->lock);
+    return status;
+}
+
+wo_host_source wo_input_source(wo_input *input, int first, int last)
+{
+    wo_host_source source = WO_HOST_SOURCE_INIT;
+    source.user = input;
+    source.components = input->present->image.components;
+    if (!input->raw && source.components == 1)
+        source.components = 3; /* what make_linear gives */
+    source.alpha = source.components == 4 ? WO_HOST_PREMULTIPLIED : WO_HOST_OPAQUE;
+    source.pixel_aspect = aspect_of(input->present);
+    source.first_frame = first;
+    source.last_frame = last;
+    if (!input->clip->mask)
+        source.colourspace = input->raw ? WO_OFX_SPACE_RAW : WO_OFX_SPACE_WORKING;
+    source.region = host_region;
+    source.pixels = host_pixels;
+    return source;
+}

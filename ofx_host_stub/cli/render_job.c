@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "render_job.h"
+
+#include <limits.h>
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+double wo_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+bool wo_render_progress(void *user, const char *label, double fraction)
+{
+    wo_render_job *const job = user;
+    (void)label;
+    if (fraction >= 0) {
+        pthread_mutex_lock(&job->lock);
+        const double done = (double)job->frame_index + fmin(fraction, 1);
+        wo_bar_move(&job->bar, done / (double)job->frames.count);
+        pthread_mutex_unlock(&job->lock);
+    }
+    return !wo_interrupted(NULL);
+}
+
+static void publish(void *user, const char *kind, const char *text)
+{
+    if (!wo_record_publish(user, kind, text))
+        wo_message("out of memory: a report of the plugin is lost");
+}
+
+/* ------------------------------------------------------------------------------- the camera's facts */
+
+static bool is_set_by_user(const wo_args *args, const wo_host_param_info *param)
+{
+    for (int i = 0; i < wo_args_count(args, "--set"); i++) {
+        const char *const text = wo_args_value(args, "--set", i);
+        const size_t length = strcspn(text, "=@");
+        if ((strlen(param->name) == length && strncmp(text, param->name, length) == 0) ||
+            (strlen(param->script_name) == length &&
+             strncmp(text, param->script_name, length) == 0))
+            return true;
+    }
+    return false;
+}
+
+/* Gives the plugin's camera parameters the values that Source's file names; says so for the first
+   frame. A value the plugin refuses is left out, with its reason. */
+static void apply_metadata(wo_render_job *job, const wo_input *source)
+{
+    static const char *const names[] = {"focalLength", "sensorWidth", "fStop", "focusDistance"};
+    char taken[256] = "";
+    size_t used = 0;
+    for (size_t i = 0; i < WO_COUNT(names); i++) {
+        char key[64];
+        snprintf(key, sizeof key, "wideopen:%s", names[i]);
+        const wo_io_attribute *const fact = wo_io_part_find(wo_input_header(source), key);
+        const wo_host_param_info *const param = wo_host_find_param(job->context, names[i]);
+        if (!fact || fact->type == WO_IO_TEXT || !param || param->dimension != 1 ||
+            is_set_by_user(job->args, param))
+            continue;
+        wo_error error = {0};
+        if (wo_host_param_set(job->instance, param->name, &fact->number, 1, &error) != WO_OK)
+            wo_message("%s of %s is not used: %s", key, wo_input_file(source), error.text);
+        else if (used < sizeof taken)
+            used += (size_t)snprintf(taken + used, sizeof taken - used, "%s%s %g",
+                                     used ? ", " : "", names[i], fact->number);
+    }
+    if (used > 0 && job->frame_index == 0)
+        wo_message("camera of %s: %s (--no-metadata leaves it alone)", wo_input_file(source), taken);
+}
+
+/* ------------------------------------------------------------------------------------- one frame */
+
+/* The project's pixels at the scale of the render. */
+static wo_rect scaled_project(const wo_render_job *job)
+{
+    const wo_rect p = job->project;
+    const double sx = job->render.scale_x, sy = job->render.scale_y;
+    return (wo_rect){(int32_t)floor(p.x1 * sx), (int32_t)floor(p.y1 * sy),
+                     (int32_t)ceil(p.x2 * sx), (int32_t)ceil(p.y2 * sy)};
+}
+
+static bool output_is_raw(wo_render_job *job)
+{
+    const wo_host_preferences *preferences = NULL;
+    if (wo_host_get_preferences(job->instance, &preferences, NULL) != WO_OK)
+        return false;
+    for (size_t i = 0; i < preferences->clip_count; i++)
+        if (strcmp(preferences->clips[i].clip, "Output") == 0)
+            return strcmp(preferences->clips[i].colourspace, WO_OFX_SPACE_RAW) == 0;
+    return false;
+}
+
+static wo_status write_frame(wo_render_job *job, wo_frame_record *frame, wo_image *image,
+                             wo_error *error)
+{
+    const wo_input *const source = wo_inputs_find(job->inputs, "Source");
+    char path[PATH_MAX];
+    WO_TRY(wo_output_write(&job->output, frame->frame, image, scaled_project(job),
+                           source ? wo_input_header(source) : NULL, output_is_raw(job), path,
+                           sizeof path, error));
+    frame->output = strdup(path);
+    return frame->output ? WO_OK : wo_fail(error, WO_ERR_NOMEM, "out of memory for a file name");
+}
+
+static void tell_frame(const wo_frame_record *frame)
+{
+    char copy[96] = "";
+    if (frame->identity)
+        snprintf(copy, sizeof copy, " (nothing to do: a copy of %s)", frame->identity_clip);
+    wo_message("%s: %dx%d in %.2f s, read %.2f s, written %.2f s%s", frame->output,
+               wo_rect_width(frame->window), wo_rect_height(frame->window), frame->render_seconds,
+               frame->read_seconds, frame->write_seconds, copy);
+}
+
+static void tell_plan(const wo_render_job *job, const wo_frame_record *frame)
+{
+    if (job->frames.count > 1)
+        printf("frame %d\n", frame->frame);
+    if (frame->identity)
+        printf("nothing to do: the output is a copy of %s\n", frame->identity_clip);
+    else if (frame->plan)
+        printf("%s%s", frame->plan,
+               *frame->plan && frame->plan[strlen(frame->plan) - 1] == '\n' ? "" : "\n");
+    else
+        wo_message("%s does not tell its plan", job->plugin->identifier);
+}
+
+static wo_status render_image(wo_render_job *job, wo_frame_record *frame, wo_image *image,
+                              wo_error *error)
+{
+    wo_host_render_args args = job->render;
+    wo_host_render_result result = {0};
+    args.time = frame->frame;
+    args.first_frame = job->frames.first;
+    args.last_frame = job->frames.last;
+    args.frame_step = job->frames.step;
+    args.report = job->explain ? WO_HOST_REPORT_EXPLAIN : WO_HOST_REPORT_RENDER;
+    args.report_user = frame;
+    args.publish = publish;
+    const double start = wo_seconds();
+    const wo_status status = wo_host_render(job->instance, &args, image, &result, error);
+    frame->render_seconds = wo_seconds() - start;
+    frame->window = result.window;
+    frame->actions = result.tiles;
+    frame->identity = result.identity;
+    if (result.identity && result.identity_clip)
+        snprintf(frame->identity_clip, sizeof frame->identity_clip, "%s", result.identity_clip);
+    const char *const said = wo_host_persistent_message(job->instance);
+    if (status == WO_OK && *said)
+        wo_message("plugin: %s", said);
+    return status;
+}
+
+static wo_status render_frame(wo_render_job *job, wo_frame_record *frame, wo_error *error)
+{
+    const double start = wo_seconds();
+    WO_TRY(wo_inputs_prepare(job->inputs, frame->frame, error));
+    const wo_input *const source = wo_inputs_find(job->inputs, "Source");
+    if (source && job->metadata)
+        apply_metadata(job, source);
+    if (job->frame_index == 0 && !wo_record_begin(&job->record, job->instance, frame->frame))
+        return wo_fail(error, WO_ERR_NOMEM, "out of memory for the report");
+    frame->read_seconds = wo_seconds() - start;
+
+    wo_image image = {0};
+    WO_TRY(render_image(job, frame, &image, error));
+    wo_status status = WO_OK;
+    const double rendered = wo_seconds();
+    if (!job->explain && image.data) {
+        status = write_frame(job, frame, &image, error);
+        frame->write_seconds = wo_seconds() - rendered;
+    } else if (!job->explain) {
+        status = wo_fail(error, WO_ERR_RANGE,
+                         "frame %d: the window holds no pixel of the picture; nothing is written",
+                         frame->frame);
+    }
+    wo_host_image_free(&image);
+    return status;
+}
+
+wo_status wo_render_frames(wo_render_job *job, wo_error *error)
+{
+    const bool json = wo_args_count(job->args, "--json") > 0;
+    const double start = wo_seconds();
+    wo_status status = WO_OK;
+    for (size_t i = 0; i < job->frames.count && status == WO_OK; i++) {
+        wo_frame_record *const frame = wo_record_next(&job->record, job->frames.numbers[i]);
+        if (!frame)
+            return wo_fail(error, WO_ERR_NOMEM, "out of memory for the report");
+        job->frame_index = i;
+        wo_bar_begin(&job->bar,
+                     wo_bar_wanted(wo_args_count(job->args, "--progress") > 0,
+                                   wo_args_count(job->args, "--no-progress") > 0),
+                     job->plugin->label);
+        wo_render_progress(job, "", 0);
+        status = wo_interrupted(NULL) ? wo_fail(error, WO_ABORTED, "interrupted")
+                                      : render_frame(job, frame, error);
+        pthread_mutex_lock(&job->lock);
+        wo_bar_end(&job->bar);
+        pthread_mutex_unlock(&job->lock);
+        if (status == WO_OK && !job->explain)
+            tell_frame(frame);
+        else if (status == WO_OK && !json)
+            tell_plan(job, frame);
+        job->record.seconds = wo_seconds() - start;
+    }
+    return status;
+}

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#ifndef WO_CLI_RENDER_JOB_H
+#define WO_CLI_RENDER_JOB_H
+
+#include "args.h"
+#include "command.h"
+#include "frames.h"
+#include "render_input.h"
+#include "render_output.h"
+#include "render_report.h"
+
+#include <pthread.h>
+
+/* One run of `wideopen render`: what the command line asked for and what came of it. */
+typedef struct wo_render_job {
+    const wo_args *args;
+    wo_frames frames;
+    wo_host_render_args render; /* scale, window, tiles */
+    wo_output output;
+    wo_rect project; /* display window at full size, pixels */
+    double pixel_aspect;
+    bool explain;
+    bool metadata; /* take the camera from Source's file */
+
+    wo_host *host;
+    const wo_host_plugin *plugin;
+    const wo_host_context_info *context;
+    wo_host_instance *instance;
+    wo_colour *colour;
+    wo_inputs *inputs;
+    wo_record record;
+
+    wo_bar bar; /* drawn by whichever thread has news; guarded by lock */
+    pthread_mutex_t lock;
+    size_t frame_index;
+} wo_render_job;
+
+/* Renders and writes every frame; stops at the first failure. The instance, its clips and parameters are
+   set. */
+WO_NODISCARD wo_status wo_render_frames(wo_render_job *job, wo_error *error);
+
+/* Progress callback of the host; user is the job. */
+bool wo_render_progress(void *user, const char *label, double fraction);
+
+/* Seconds on a clock that never jumps. */
+double wo_seconds(void);
+
+#endif

@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "session.h"
+
+#include "command.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { DIRECTORIES_MAX = 64 };
+
+/* The folder Plugins beside the running program; false when the system does not tell where that is. */
+static bool beside_program(char *buffer, size_t size)
+{
+    const ssize_t length = readlink("/proc/self/exe", buffer, size - 1);
+    if (length <= 0)
+        return false;
+    buffer[length] = '\0';
+    char *const slash = strrchr(buffer, '/');
+    const char name[] = "/Plugins";
+    if (!slash || (size_t)(slash - buffer) + sizeof name > size)
+        return false;
+    memcpy(slash, name, sizeof name);
+    return true;
+}
+
+static bool is_directory(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+}
+
+static bool print_plugin_message(void *user, wo_host_message type, const char *id, const char *text)
+{
+    static const char *const names[] = {"fatal: ", "error: ", "warning: ", "", "log: ", "asks: "};
+    (void)user;
+    (void)id;
+    wo_message("plugin %s%s", names[type], text);
+    return false;
+}
+
+int wo_session_open(const wo_args *args, wo_host_config config, wo_host **host)
+{
+    const char *directories[DIRECTORIES_MAX];
+    size_t count = 0;
+    *host = NULL;
+    for (int i = 0; i < wo_args_count(args, "--plugin-path"); i++) {
+        const char *const directory = wo_args_value(args, "--plugin-path", i);
+        if (count >= DIRECTORIES_MAX - 1)
+            return wo_usage_fault(args->usage->command, "more than %d times --plugin-path",
+                                  DIRECTORIES_MAX - 1);
+        if (!is_directory(directory)) {
+            wo_message("--plugin-path %s is no directory; name one that holds .ofx.bundle folders",
+                       directory);
+            return WO_EXIT_FAILURE;
+        }
+        directories[count++] = directory;
+    }
+    char beside[PATH_MAX];
+    if (beside_program(beside, sizeof beside) && is_directory(beside))
+        directories[count++] = beside;
+    config.directories = directories;
+    config.directory_count = count;
+    config.search_path = true;
+    if (!config.message)
+        config.message = print_plugin_message;
+    wo_error error = {0};
+    return wo_host_create(&config, host, &error) == WO_OK ? WO_EXIT_OK : wo_failure(&error);
+}
+
+void wo_session_notes(const wo_host *host)
+{
+    for (size_t i = 0; i < wo_host_note_count(host); i++)
+        wo_message("note: %s", wo_host_note(host, i));
+}
+
+const wo_host_plugin *wo_session_plugin(const wo_host *host, const char *name)
+{
+    const wo_host_plugin *plugin = NULL;
+    wo_error error = {0};
+    if (wo_host_find_plugin(host, name, &plugin, &error) == WO_OK)
+        return plugin;
+    wo_message("%s", error.text);
+    if (wo_host_plugin_count(host) == 0) {
+        wo_session_notes(host);
+        wo_message("set OFX_PLUGIN_PATH or give --plugin-path DIR");
+    }
+    return NULL;
+}
+
+const wo_host_context_info *wo_session_context(const wo_host_plugin *plugin, const char *name,
+                                               const char *command)
+{
+    static const char *const preferred[] = {"General", "Filter", "Generator"};
+    for (size_t i = 0; !name && i < WO_COUNT(preferred); i++) {
+        const wo_host_context_info *const context = wo_host_find_context(plugin, preferred[i]);
+        if (context)
+            return context;
+    }
+    const wo_host_context_info *const context = name ? wo_host_find_context(plugin, name) : NULL;
+    if (context)
+        return context;
+    char there[512] = "none this host can run";
+    size_t used = 0;
+    for (size_t i = 0; i < plugin->context_count && used < sizeof there; i++)
+        used += (size_t)snprintf(there + used, sizeof there - used, "%s%s", i ? ", " : "",
+                                 plugin->contexts[i].short_name);
+    wo_usage_fault(command, "%s has no context %s; it has: %s", plugin->identifier,
+                   name ? name : "General, Filter or Generator", there);
+    return NULL;
+}

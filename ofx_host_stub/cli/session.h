@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#ifndef WO_CLI_SESSION_H
+#define WO_CLI_SESSION_H
+
+#include "args.h"
+#include "host/host.h"
+
+#include <stdio.h>
+
+/* What the commands that load plugins share. */
+
+/* Rows of the option table. */
+#define WO_OPTION_PLUGIN_PATH                                                                      \
+    {"--plugin-path", NULL, "DIR",                                                                 \
+     "Look for plugins here first, then in the folder Plugins beside this program, then in the "   \
+     "folders of OFX_PLUGIN_PATH and the system's own.",                                           \
+     true}
+#define WO_OPTION_NOTES                                                                            \
+    {"--notes", NULL, NULL, "Say what was found but not taken as a plugin, and why.", false}
+
+/* Makes a host that has scanned --plugin-path, the folder Plugins beside the program and the search
+   path. The directories of config are replaced, messages of plugins go to stderr when it has no
+   message callback. Returns an exit code; *host is NULL unless it is WO_EXIT_OK. Prints why not. */
+int wo_session_open(const wo_args *args, wo_host_config config, wo_host **host) WO_NODISCARD;
+
+/* Prints the host's notes on stderr. */
+void wo_session_notes(const wo_host *host);
+
+/* Plugin by name; after a miss NULL and a message that says what there is. */
+const wo_host_plugin *wo_session_plugin(const wo_host *host, const char *name);
+
+/* Context by name, or with name NULL the one the host takes by itself: General, Filter, Generator. NULL
+   and a message when the plugin does not have it. command is the asking one. */
+const wo_host_context_info *wo_session_context(const wo_host_plugin *plugin, const char *name,
+                                               const char *command);
+
+/* Clips and parameters for people. */
+void wo_print_clips(FILE *out, const wo_host_context_info *context);
+void wo_print_params(FILE *out, const wo_host_context_info *context);
+
+#endif

@@ -1,0 +1,279 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "internal.h"
+
+#include <limits.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define VIOLATIONS_MAX 2000
+
+void *wo_grow(void *array, size_t count, size_t *capacity, size_t size)
+{
+    if (count < *capacity)
+        return array;
+    const size_t more = *capacity ? *capacity * 2 : 8;
+    if (more <= *capacity || more > SIZE_MAX / size)
+        return NULL;
+    void *grown = realloc(array, more * size);
+    if (grown)
+        *capacity = more;
+    return grown;
+}
+
+char *wo_text_copy(const char *text)
+{
+    const size_t size = strlen(text) + 1;
+    char *copy = malloc(size);
+    if (copy)
+        memcpy(copy, text, size);
+    return copy;
+}
+
+bool wo_text_set(char **place, const char *text)
+{
+    char *copy = text ? wo_text_copy(text) : NULL;
+    if (text && !copy)
+        return false;
+    free(*place);
+    *place = copy;
+    return true;
+}
+
+bool wo_texts_add(wo_texts *texts, const char *text)
+{
+    char *copy = wo_text_copy(text);
+    char **items = wo_grow(texts->items, texts->count, &texts->capacity, sizeof *texts->items);
+    if (items)
+        texts->items = items;
+    if (!items || !copy) {
+        free(copy);
+        return false;
+    }
+    texts->items[texts->count++] = copy;
+    return true;
+}
+
+void wo_texts_clear(wo_texts *texts)
+{
+    for (size_t i = 0; i < texts->count; i++)
+        free(texts->items[i]);
+    free(texts->items);
+    *texts = (wo_texts){0};
+}
+
+void wo_note(wo_host *host, const char *format, ...)
+{
+    char text[1024];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    (void)wo_texts_add(&host->notes, text); /* a note that is lost for lack of memory harms nobody */
+}
+
+void wo_violate(wo_host *host, const char *format, ...)
+{
+    char text[1024];
+    const wo_frame *frame = wo_frame_now();
+    host = wo_host_to_blame(host);
+    if (!host)
+        return;
+    int length = 0;
+    if (frame && frame->host == host)
+        length = snprintf(text, sizeof text, "%s: %s: ", frame->entry->info.identifier,
+                          wo_action_text(frame->action));
+    else
+        length = snprintf(text, sizeof text, "outside of actions: ");
+    if (length < 0 || (size_t)length >= sizeof text)
+        length = 0;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text + length, sizeof text - (size_t)length, format, args);
+    va_end(args);
+
+    pthread_mutex_lock(&host->lock);
+    bool known = false;
+    for (size_t i = 0; i < host->violations.count && !known; i++)
+        known = strcmp(host->violations.items[i], text) == 0;
+    if (!known && (host->violations.count >= VIOLATIONS_MAX ||
+                   !wo_texts_add(&host->violations, text)))
+        host->violations_lost++;
+    pthread_mutex_unlock(&host->lock);
+}
+
+size_t wo_host_violation_count(wo_host *host)
+{
+    pthread_mutex_lock(&host->lock);
+    const size_t count = host->violations.count;
+    pthread_mutex_unlock(&host->lock);
+    return count;
+}
+
+const char *wo_host_violation(wo_host *host, size_t index)
+{
+    pthread_mutex_lock(&host->lock);
+    const char *text = index < host->violations.count ? host->violations.items[index] : NULL;
+    pthread_mutex_unlock(&host->lock);
+    return text;
+}
+
+void wo_host_violations_clear(wo_host *host)
+{
+    pthread_mutex_lock(&host->lock);
+    wo_texts_clear(&host->violations);
+    host->violations_lost = 0;
+    pthread_mutex_unlock(&host->lock);
+}
+
+size_t wo_host_note_count(const wo_host *host)
+{
+    return host->notes.count;
+}
+
+const char *wo_host_note(const wo_host *host, size_t index)
+{
+    return index < host->notes.count ? host->notes.items[index] : NULL;
+}
+
+unsigned wo_host_threads(const wo_host *host)
+{
+    return wo_pool_size(host->pool);
+}
+
+wo_status wo_host_create(const wo_host_config *config, wo_host **out, wo_error *error)
+{
+    static const wo_host_config nothing;
+    *out = NULL;
+    if (!config)
+        config = &nothing;
+    wo_host *host = calloc(1, sizeof *host);
+    if (!host)
+        return wo_fail(error, WO_ERR_NOMEM, "no memory for a host");
+    host->config = *config;
+    host->config.directories = NULL;
+    host->config.directory_count = 0;
+    if (pthread_mutex_init(&host->lock, NULL) != 0) {
+        free(host);
+        return wo_fail(error, WO_ERR_NOMEM, "no mutex for a host");
+    }
+    wo_status status = WO_OK;
+    if (!wo_process_enter(host, config))
+        status = wo_fail(error, WO_ERR_NOMEM, "no memory for the host's properties");
+    if (status == WO_OK)
+        status = wo_pool_create(config->threads, &host->pool, error);
+    if (status != WO_OK) {
+        wo_host_destroy(&host);
+        return status;
+    }
+    for (size_t i = 0; i < config->directory_count; i++)
+        wo_scan_directory(host, config->directories[i], 0);
+    if (config->search_path) {
+        const char *paths = getenv("OFX_PLUGIN_PATH");
+        if (paths)
+            wo_scan_paths(host, paths);
+        wo_scan_directory(host, "/usr/OFX/Plugins", 0);
+    }
+    *out = host;
+    return WO_OK;
+}
+
+void wo_host_destroy(wo_host **place)
+{
+    wo_host *host = *place;
+    if (!host)
+        return;
+    while (host->instances) {
+        wo_host_instance *instance = host->instances;
+        wo_host_instance_destroy(&instance);
+    }
+    for (size_t i = 0; i < host->entry_count; i++)
+        wo_entry_destroy(&host->entries[i]);
+    free(host->entries);
+    wo_pool_destroy(&host->pool);
+    wo_process_leave(host);
+    wo_texts_clear(&host->violations);
+    wo_texts_clear(&host->notes);
+    pthread_mutex_destroy(&host->lock);
+    free(host);
+    *place = NULL;
+}
+
+wo_status wo_host_scan(wo_host *host, const char *directory, wo_error *error)
+{
+    const size_t notes = host->notes.count;
+    if (!directory || !*directory)
+        return wo_fail(error, WO_ERR_ARGUMENT, "no directory to search");
+    wo_scan_directory(host, directory, 0);
+    for (size_t i = notes; i < host->notes.count; i++)
+        if (strstr(host->notes.items[i], "out of memory"))
+            return wo_fail(error, WO_ERR_NOMEM, "%s", host->notes.items[i]);
+    return WO_OK;
+}
+
+size_t wo_host_plugin_count(const wo_host *host)
+{
+    return host->entry_count;
+}
+
+const wo_host_plugin *wo_host_plugin_at(const wo_host *host, size_t index)
+{
+    return index < host->entry_count ? &host->entries[index]->info : NULL;
+}
+
+static bool newer(const wo_host_plugin *a, const wo_host_plugin *b)
+{
+    if (a->version_major != b->version_major)
+        return a->version_major > b->version_major;
+    return a->version_minor > b->version_minor;
+}
+
+/* Adds a name to a comma-separated list, with "..." where it ends. */
+static void list_name(char *list, size_t size, const char *name)
+{
+    const size_t used = strlen(list);
+    const char *comma = used ? ", " : "";
+    if (used + strlen(comma) + strlen(name) + 6 < size)
+        snprintf(list + used, size - used, "%s%s", comma, name);
+    else if (used + 6 < size && (used < 3 || strcmp(list + used - 3, "...") != 0))
+        snprintf(list + used, size - used, ", ...");
+}
+
+wo_status wo_host_find_plugin(const wo_host *host, const char *name,
+                              const wo_host_plugin **plugin, wo_error *error)
+{
+    char list[180] = "";
+    const wo_host_plugin *whole = NULL, *part = NULL;
+    bool ambiguous = false;
+    *plugin = NULL;
+    if (!name || !*name)
+        return wo_fail(error, WO_ERR_ARGUMENT, "no plugin name given");
+    for (size_t i = 0; i < host->entry_count; i++) {
+        const wo_host_plugin *p = &host->entries[i]->info;
+        const char *dot = strrchr(p->identifier, '.');
+        if (strcmp(p->identifier, name) == 0 && (!whole || newer(p, whole)))
+            whole = p;
+        if (!dot || strcmp(dot + 1, name) != 0)
+            continue;
+        if (part && strcmp(part->identifier, p->identifier) != 0)
+            ambiguous = true;
+        else if (!part || newer(p, part))
+            part = p;
+    }
+    if (whole || (part && !ambiguous)) {
+        *plugin = whole ? whole : part;
+        return WO_OK;
+    }
+    for (size_t i = 0; i < host->entry_count; i++) {
+        const char *identifier = host->entries[i]->info.identifier;
+        const char *dot = strrchr(identifier, '.');
+        if (!ambiguous || (dot && strcmp(dot + 1, name) == 0))
+            list_name(list, sizeof list, identifier);
+    }
+    if (ambiguous)
+        return wo_fail(error, WO_ERR_ARGUMENT, "\"%.40s\" may be any of: %s", name, list);
+    return wo_fail(error, WO_ERR_NOT_FOUND, "no plugin \"%.40s\"; there %s%s", name,
+                   host->entry_count ? "is: " : "are none at all", list);
+}

@@ -1,0 +1,292 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "internal.h"
+
+#include <dlfcn.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PLUGINS_MAX 1000 /* in one binary */
+
+/* One plugin of a binary, for all hosts. */
+typedef struct loaded {
+    OfxPlugin *plugin;
+    unsigned loads;              /* hosts that want it loaded */
+    pthread_mutex_t render_lock; /* for plugins that render only once at a time */
+    bool has_lock;
+} loaded;
+
+/* A binary is mapped, and its plugins are loaded, once in a process, whatever the number of hosts. */
+struct wo_module {
+    wo_module *next;
+    char *path; /* real, absolute */
+    void *library;
+    unsigned users;
+    int count;
+    loaded *plugins;
+};
+
+static struct {
+    pthread_mutex_t lock;
+    wo_module *first;
+} modules = {.lock = PTHREAD_MUTEX_INITIALIZER};
+
+typedef union symbol {
+    void *address;
+    OfxStatus (*set_host)(const OfxHost *host);
+    int (*count)(void);
+    OfxPlugin *(*get)(int nth);
+} symbol;
+
+static void module_free(wo_module *module)
+{
+    for (int i = 0; module->plugins && i < module->count; i++)
+        if (module->plugins[i].has_lock)
+            pthread_mutex_destroy(&module->plugins[i].render_lock);
+    if (module->library)
+        dlclose(module->library);
+    free(module->plugins);
+    free(module->path);
+    free(module);
+}
+
+/* Maps a binary and asks how many plugins it has; NULL with the reason in *why. */
+static wo_module *module_map(char *path, const char **why)
+{
+    wo_module *module = calloc(1, sizeof *module);
+    if (!module) {
+        free(path);
+        *why = "out of memory";
+        return NULL;
+    }
+    module->path = path;
+    module->library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    if (!module->library) {
+        const char *text = dlerror();
+        *why = text ? text : "cannot be opened";
+        module_free(module);
+        return NULL;
+    }
+    const symbol set_host = {.address = dlsym(module->library, "OfxSetHost")};
+    const symbol count = {.address = dlsym(module->library, "OfxGetNumberOfPlugins")};
+    const symbol get = {.address = dlsym(module->library, "OfxGetPlugin")};
+    if (!count.address || !get.address) {
+        *why = count.address ? "it exports no OfxGetPlugin" : "it exports no OfxGetNumberOfPlugins";
+        module_free(module);
+        return NULL;
+    }
+    if (set_host.address && set_host.set_host(wo_process_ofx_host()) == kOfxStatFailed) {
+        *why = "it does not want this host";
+        module_free(module);
+        return NULL;
+    }
+    const int plugins = count.count();
+    if (plugins < 1 || plugins > PLUGINS_MAX) {
+        *why = plugins < 1 ? "it says it has no plugins" : "it says it has too many plugins";
+        module_free(module);
+        return NULL;
+    }
+    module->plugins = calloc((size_t)plugins, sizeof *module->plugins);
+    if (!module->plugins) {
+        *why = "out of memory";
+        module_free(module);
+        return NULL;
+    }
+    module->count = plugins;
+    for (int i = 0; i < plugins; i++) {
+        module->plugins[i].plugin = get.get(i);
+        module->plugins[i].has_lock =
+            pthread_mutex_init(&module->plugins[i].render_lock, NULL) == 0;
+    }
+    return module;
+}
+
+static wo_module *module_open(const char *binary, const char **why)
+{
+    char *path = realpath(binary, NULL);
+    if (!path) {
+        *why = "it has no absolute path";
+        return NULL;
+    }
+    wo_module *module = modules.first;
+    while (module && strcmp(module->path, path) != 0)
+        module = module->next;
+    if (module) {
+        free(path);
+    } else {
+        module = module_map(path, why);
+        if (!module)
+            return NULL;
+        module->next = modules.first;
+        modules.first = module;
+    }
+    module->users++;
+    return module;
+}
+
+static void module_close(wo_module *module)
+{
+    if (--module->users > 0)
+        return;
+    wo_module **link = &modules.first;
+    while (*link != module)
+        link = &(*link)->next;
+    *link = module->next;
+    module_free(module);
+}
+
+OfxStatus wo_entry_load(wo_entry *entry)
+{
+    OfxStatus status = kOfxStatOK;
+    loaded *it = &entry->module->plugins[entry->index];
+    if (entry->loaded)
+        return kOfxStatOK;
+    pthread_mutex_lock(&modules.lock);
+    if (it->loads == 0) {
+        wo_frame frame = {.action = WO_ACTION_LOAD};
+        it->plugin->setHost(wo_process_ofx_host());
+        status = wo_act(entry, &frame, NULL, NULL);
+    }
+    if (status == kOfxStatOK || status == kOfxStatReplyDefault) {
+        it->loads++;
+        entry->loaded = true;
+        status = kOfxStatOK;
+    }
+    pthread_mutex_unlock(&modules.lock);
+    return status;
+}
+
+void wo_entry_unload(wo_entry *entry)
+{
+    loaded *it = &entry->module->plugins[entry->index];
+    if (!entry->loaded)
+        return;
+    pthread_mutex_lock(&modules.lock);
+    entry->loaded = false;
+    if (--it->loads == 0) {
+        wo_frame frame = {.action = WO_ACTION_UNLOAD};
+        (void)wo_act(entry, &frame, NULL, NULL);
+        wo_frame_set(&frame);
+        wo_memory_check_left(entry->plugin, NULL);
+        wo_mutexes_check_left(entry->plugin);
+        wo_frame_set(frame.outer);
+    }
+    pthread_mutex_unlock(&modules.lock);
+}
+
+pthread_mutex_t *wo_entry_render_lock(wo_entry *entry)
+{
+    return &entry->module->plugins[entry->index].render_lock;
+}
+
+void wo_entry_destroy(wo_entry **place)
+{
+    wo_entry *entry = *place;
+    if (!entry)
+        return;
+    wo_entry_forget(entry);
+    wo_entry_unload(entry);
+    pthread_mutex_lock(&modules.lock);
+    module_close(entry->module);
+    pthread_mutex_unlock(&modules.lock);
+    free(entry->bundle);
+    free(entry->binary);
+    free(entry);
+    *place = NULL;
+}
+
+/* Why the struct a binary gave is no plugin for us; NULL when it is one. */
+static const char *unfit(const loaded *it)
+{
+    const OfxPlugin *plugin = it->plugin;
+    if (!plugin)
+        return "is NULL";
+    if (!it->has_lock)
+        return "has no lock";
+    if (!plugin->pluginApi || strcmp(plugin->pluginApi, kOfxImageEffectPluginApi) != 0)
+        return "is no image effect";
+    if (plugin->apiVersion != kOfxImageEffectPluginApiVersion)
+        return "is for another version of the API";
+    if (!plugin->pluginIdentifier || !*plugin->pluginIdentifier)
+        return "has no identifier";
+    if (!plugin->setHost || !plugin->mainEntry)
+        return "lacks a function";
+    return NULL;
+}
+
+static bool known(const wo_host *host, const OfxPlugin *plugin)
+{
+    for (size_t i = 0; i < host->entry_count; i++) {
+        const wo_host_plugin *other = &host->entries[i]->info;
+        if (strcmp(other->identifier, plugin->pluginIdentifier) == 0 &&
+            other->version_major == plugin->pluginVersionMajor &&
+            other->version_minor >= plugin->pluginVersionMinor)
+            return true;
+    }
+    return false;
+}
+
+static void load_plugin(wo_host *host, wo_module *module, int index, const char *bundle,
+                        const char *binary)
+{
+    const OfxPlugin *plugin = module->plugins[index].plugin;
+    const char *why = unfit(&module->plugins[index]);
+    if (why) {
+        wo_note(host, "%s: plugin %d %s", bundle, index, why);
+        return;
+    }
+    if (known(host, plugin)) {
+        wo_note(host, "%s: %s was found before", bundle, plugin->pluginIdentifier);
+        return;
+    }
+    wo_entry **entries =
+        wo_grow(host->entries, host->entry_count, &host->entry_capacity, sizeof *host->entries);
+    if (entries)
+        host->entries = entries;
+    wo_entry *entry = calloc(1, sizeof *entry);
+    if (!entries || !entry) {
+        free(entry);
+        wo_note(host, "%s: out of memory", bundle);
+        return;
+    }
+    entry->host = host;
+    entry->module = module;
+    entry->index = index;
+    entry->plugin = module->plugins[index].plugin;
+    pthread_mutex_lock(&modules.lock);
+    module->users++;
+    pthread_mutex_unlock(&modules.lock);
+    entry->info.identifier = plugin->pluginIdentifier;
+    entry->info.version_major = plugin->pluginVersionMajor;
+    entry->info.version_minor = plugin->pluginVersionMinor;
+    entry->info.internal = entry;
+    entry->info.bundle = entry->bundle = wo_text_copy(bundle);
+    entry->info.binary = entry->binary = wo_text_copy(binary);
+    if (!entry->bundle || !entry->binary) {
+        wo_note(host, "%s: out of memory", bundle);
+        wo_entry_destroy(&entry);
+        return;
+    }
+    if (!wo_entry_describe(entry)) {
+        wo_entry_destroy(&entry);
+        return;
+    }
+    host->entries[host->entry_count++] = entry;
+}
+
+void wo_load_binary(wo_host *host, const char *bundle, const char *binary)
+{
+    const char *why = "";
+    pthread_mutex_lock(&modules.lock);
+    wo_module *module = module_open(binary, &why);
+    if (!module)
+        wo_note(host, "%s: %s", bundle, why);
+    pthread_mutex_unlock(&modules.lock);
+    if (!module)
+        return;
+    for (int i = 0; i < module->count; i++)
+        load_plugin(host, module, i, bundle, binary);
+    pthread_mutex_lock(&modules.lock);
+    module_close(module);
+    pthread_mutex_unlock(&modules.lock);
+}

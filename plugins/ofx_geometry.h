@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#ifndef WO_PLUGINS_OFX_GEOMETRY_H
+#define WO_PLUGINS_OFX_GEOMETRY_H
+
+#include "ofx_instance.h"
+
+/* From canonical coordinates (square pixels, full size) to pixels and back:
+
+       X = x * scale[0] / aspect,  Y = y * scale[1]
+*/
+
+/* Fills time, scale, aspect, region and geometry of the action; does not fail, whatever the host
+ * says. */
+void wo_ofx_read_geometry(wo_ofx_action *action);
+
+/* Smallest rectangle of pixels that holds a canonical one; sides without end stop at the frame and
+   at Source's pixels. */
+wo_rect wo_ofx_to_pixels(const wo_ofx_action *action, OfxRectD region);
+
+OfxRectD wo_ofx_to_canonical(const wo_ofx_action *action, wo_rect pixels);
+
+#endif

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#ifndef WO_PLUGINS_OFX_INSTANCE_H
+#define WO_PLUGINS_OFX_INSTANCE_H
+
+#include <stdatomic.h>
+
+#include "ofx_memory.h"
+#include "ofx_plugin.h"
+
+/* All that lives between two actions of one instance: flags, so that a message is shown once and
+   one render at a time owns the progress bar. Everything else is asked from the host anew. */
+typedef struct wo_ofx_instance {
+    atomic_bool complaining;
+    atomic_bool progressing;
+} wo_ofx_instance;
+
+/* Actions CreateInstance and DestroyInstance. */
+OfxStatus wo_ofx_instance_create(const wo_ofx_plugin *plugin, OfxImageEffectHandle handle);
+OfxStatus wo_ofx_instance_destroy(const wo_ofx_plugin *plugin, OfxImageEffectHandle handle);
+
+/* One action on one instance, with everything about the instance that the actions want to know.
+   Lives on the stack of the action. */
+typedef struct wo_ofx_action {
+    const wo_ofx_suites *suites;
+    const wo_effect *effect;
+    OfxImageEffectHandle handle;
+    OfxPropertySetHandle properties; /* of the instance */
+    OfxPropertySetHandle in, out;
+    wo_ofx_instance *instance; /* NULL where the host keeps none */
+    wo_ofx_memory memory;
+    wo_context context; /* with the host's memory and nothing else */
+    wo_error error;
+
+    struct {
+        OfxImageClipHandle handle; /* NULL = this context or host does not have it */
+        OfxPropertySetHandle properties;
+    } clips[WO_CLIPS_MAX]; /* in the order of wo_effect.clips */
+
+    double time;
+    double scale[2];
+    double aspect;   /* of a pixel: width over height */
+    OfxRectD region; /* of definition of Source, canonical and finite */
+    void *params;
+    wo_geometry geometry;
+} wo_ofx_action;
+
+/* Opens the clips and fills all but time, params and geometry; does not fail. */
+void wo_ofx_action_begin(wo_ofx_action *action, const wo_ofx_plugin *plugin,
+                         OfxImageEffectHandle handle, OfxPropertySetHandle in,
+                         OfxPropertySetHandle out);
+
+/* Fills time, scale, params and geometry from the action's arguments. */
+WO_NODISCARD wo_status wo_ofx_action_read(wo_ofx_action *action);
+
+/* Gives back what reading took; shows the error of a failure to the user, or takes the last one
+   away after a success. done says that the action has done what the user wants to see. */
+OfxStatus wo_ofx_action_end(wo_ofx_action *action, wo_status status, bool done);
+
+/* Whether the host says that something is attached to a clip. */
+bool wo_ofx_clip_connected(const wo_ofx_action *action, size_t clip);
+
+#endif

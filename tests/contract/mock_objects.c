@@ -1,0 +1,618 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "mock_internal.h"
+
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { PROPS_MAX = 64, VALUES_MAX = 24, PARAMS_MAX = 32, CLIPS_MAX = 4 };
+
+typedef struct prop {
+    char name[80];
+    char type; /* 'i', 'd', 's', 'p' */
+    int count;
+    union {
+        int i;
+        double d;
+        char *s;
+        void *p;
+    } values[VALUES_MAX];
+} prop;
+
+struct OfxPropertySetStruct {
+    prop items[PROPS_MAX];
+    int count;
+};
+
+struct OfxParamStruct {
+    char name[64], type[32];
+    OfxPropertySetHandle props;
+    double numbers[3];
+    char *text;
+};
+
+struct OfxParamSetStruct {
+    struct OfxParamStruct items[PARAMS_MAX];
+    int count;
+};
+
+struct OfxImageClipStruct {
+    char name[32];
+    OfxPropertySetHandle props;
+    const mock_picture *picture;
+};
+
+struct OfxImageEffectStruct {
+    OfxPropertySetHandle props;
+    struct OfxParamSetStruct params;
+    struct OfxImageClipStruct clips[CLIPS_MAX];
+    int clip_count;
+};
+
+static atomic_int live_sets;
+
+int mock_allocations_of_sets(bool forget)
+{
+    if (forget)
+        atomic_store(&live_sets, 0);
+    return atomic_load(&live_sets);
+}
+
+/* ---- property sets ---- */
+
+static OfxPropertySetHandle set_new(void)
+{
+    atomic_fetch_add(&live_sets, 1);
+    return calloc(1, sizeof(struct OfxPropertySetStruct));
+}
+
+static void prop_clear(prop *p)
+{
+    for (int i = 0; p->type == 's' && i < p->count; i++)
+        free(p->values[i].s);
+    memset(p, 0, sizeof *p);
+}
+
+static void set_free(OfxPropertySetHandle set)
+{
+    if (!set)
+        return;
+    for (int i = 0; i < set->count; i++)
+        prop_clear(&set->items[i]);
+    free(set);
+    atomic_fetch_sub(&live_sets, 1);
+}
+
+static prop *find(OfxPropertySetHandle set, const char *name)
+{
+    for (int i = 0; set && i < set->count; i++)
+        if (strcmp(set->items[i].name, name) == 0)
+            return &set->items[i];
+    return NULL;
+}
+
+static prop *grow(OfxPropertySetHandle set, const char *name, char type, int index)
+{
+    prop *p = find(set, name);
+    if ((mock.forget && strcmp(mock.forget, name) == 0) || index < 0 || index >= VALUES_MAX)
+        return NULL;
+    if (!p && set->count < PROPS_MAX) {
+        p = &set->items[set->count++];
+        snprintf(p->name, sizeof p->name, "%s", name);
+        p->type = type;
+    }
+    if (!p || p->type != type || index > p->count)
+        return NULL;
+    if (index == p->count)
+        p->count++;
+    return p;
+}
+
+static OfxStatus put_int(OfxPropertySetHandle set, const char *name, int index, int value)
+{
+    prop *const p = grow(set, name, 'i', index);
+    if (!p)
+        return kOfxStatErrUnknown;
+    p->values[index].i = value;
+    return kOfxStatOK;
+}
+
+static OfxStatus put_double(OfxPropertySetHandle set, const char *name, int index, double value)
+{
+    prop *const p = grow(set, name, 'd', index);
+    if (!p)
+        return kOfxStatErrUnknown;
+    p->values[index].d = value;
+    return kOfxStatOK;
+}
+
+static OfxStatus put_text(OfxPropertySetHandle set, const char *name, int index, const char *value)
+{
+    prop *const p = grow(set, name, 's', index);
+    if (!p)
+        return kOfxStatErrUnknown;
+    const size_t size = strlen(value) + 1;
+    free(p->values[index].s);
+    p->values[index].s = malloc(size);
+    memcpy(p->values[index].s, value, size);
+    return kOfxStatOK;
+}
+
+static OfxStatus put_pointer(OfxPropertySetHandle set, const char *name, int index, void *value)
+{
+    if ((mock.flags & MOCK_NO_INSTANCE_DATA) && strcmp(name, kOfxPropInstanceData) == 0)
+        return kOfxStatErrUnknown;
+    prop *const p = grow(set, name, 'p', index);
+    if (!p)
+        return kOfxStatErrUnknown;
+    p->values[index].p = value;
+    return kOfxStatOK;
+}
+
+static const prop *look(OfxPropertySetHandle set, const char *name, char type, int index)
+{
+    const prop *const p = find(set, name);
+    if (!p || (mock.forget && strcmp(mock.forget, name) == 0))
+        return NULL;
+    return p->type == type && index >= 0 && index < p->count ? p : NULL;
+}
+
+static OfxStatus get_int(OfxPropertySetHandle set, const char *name, int index, int *value)
+{
+    const prop *const p = look(set, name, 'i', index);
+    if (p)
+        *value = p->values[index].i;
+    return p ? kOfxStatOK : kOfxStatErrUnknown;
+}
+
+static OfxStatus get_double(OfxPropertySetHandle set, const char *name, int index, double *value)
+{
+    const prop *const p = look(set, name, 'd', index);
+    if (p)
+        *value = p->values[index].d;
+    return p ? kOfxStatOK : kOfxStatErrUnknown;
+}
+
+static OfxStatus get_text(OfxPropertySetHandle set, const char *name, int index, char **value)
+{
+    const prop *const p = look(set, name, 's', index);
+    if (p)
+        *value = p->values[index].s;
+    return p ? kOfxStatOK : kOfxStatErrUnknown;
+}
+
+static OfxStatus get_pointer(OfxPropertySetHandle set, const char *name, int index, void **value)
+{
+    const prop *const p = look(set, name, 'p', index);
+    if (p)
+        *value = p->values[index].p;
+    return p ? kOfxStatOK : kOfxStatErrUnknown;
+}
+
+static OfxStatus get_dimension(OfxPropertySetHandle set, const char *name, int *count)
+{
+    const prop *const p = find(set, name);
+    if (p)
+        *count = p->count;
+    return p ? kOfxStatOK : kOfxStatErrUnknown;
+}
+
+/* The vector functions are left out, as some hosts do. */
+const void *mock_property_suite(void)
+{
+    static const OfxPropertySuiteV1 suite = {.propSetPointer = put_pointer,
+                                             .propSetString = put_text,
+                                             .propSetDouble = put_double,
+                                             .propSetInt = put_int,
+                                             .propGetPointer = get_pointer,
+                                             .propGetString = get_text,
+                                             .propGetDouble = get_double,
+                                             .propGetInt = get_int,
+                                             .propGetDimension = get_dimension};
+    return &suite;
+}
+
+/* ---- parameters ---- */
+
+static OfxParamHandle find_param(OfxParamSetHandle set, const char *name)
+{
+    for (int i = 0; i < set->count; i++)
+        if (strcmp(set->items[i].name, name) == 0)
+            return &set->items[i];
+    return NULL;
+}
+
+static OfxStatus param_define(OfxParamSetHandle set, const char *type, const char *name,
+                              OfxPropertySetHandle *props)
+{
+    if (mock.refuse && strcmp(mock.refuse, type) == 0)
+        return kOfxStatErrUnsupported;
+    if (find_param(set, name) || set->count == PARAMS_MAX)
+        return kOfxStatErrExists;
+    const OfxParamHandle param = &set->items[set->count++];
+    memset(param, 0, sizeof *param);
+    snprintf(param->name, sizeof param->name, "%s", name);
+    snprintf(param->type, sizeof param->type, "%s", type);
+    param->props = set_new();
+    *props = param->props;
+    return kOfxStatOK;
+}
+
+static OfxStatus param_get_handle(OfxParamSetHandle set, const char *name, OfxParamHandle *param,
+                                  OfxPropertySetHandle *props)
+{
+    *param = find_param(set, name);
+    if (*param && props)
+        *props = (*param)->props;
+    return *param ? kOfxStatOK : kOfxStatErrUnknown;
+}
+
+static OfxStatus param_get_at(OfxParamHandle param, OfxTime time, ...)
+{
+    va_list arguments;
+    (void)time;
+    va_start(arguments, time);
+    if (strcmp(param->type, kOfxParamTypeString) == 0) {
+        *va_arg(arguments, char **) = param->text;
+    } else if (strcmp(param->type, kOfxParamTypeDouble) == 0 ||
+               strcmp(param->type, kOfxParamTypeDouble2D) == 0 ||
+               strcmp(param->type, kOfxParamTypeRGB) == 0) {
+        const int count = strcmp(param->type, kOfxParamTypeRGB) == 0        ? 3
+                          : strcmp(param->type, kOfxParamTypeDouble2D) == 0 ? 2
+                                                                            : 1;
+        for (int i = 0; i < count; i++)
+            *va_arg(arguments, double *) = param->numbers[i];
+    } else {
+        *va_arg(arguments, int *) = (int)param->numbers[0];
+    }
+    va_end(arguments);
+    return kOfxStatOK;
+}
+
+const void *mock_param_suite(void)
+{
+    static const OfxParameterSuiteV1 suite = {.paramDefine = param_define,
+                                              .paramGetHandle = param_get_handle,
+                                              .paramGetValueAtTime = param_get_at};
+    return &suite;
+}
+
+bool mock_set_number(OfxImageEffectHandle effect, const char *name, double x, double y, double z)
+{
+    const OfxParamHandle param = find_param(&effect->params, name);
+    if (param)
+        memcpy(param->numbers, (double[3]){x, y, z}, sizeof param->numbers);
+    return param != NULL;
+}
+
+bool mock_set_text(OfxImageEffectHandle effect, const char *name, const char *text)
+{
+    const OfxParamHandle param = find_param(&effect->params, name);
+    if (!param)
+        return false;
+    free(param->text);
+    param->text = NULL;
+    if (text) {
+        param->text = malloc(strlen(text) + 1);
+        strcpy(param->text, text);
+    }
+    return true;
+}
+
+/* The values an instance starts with are the defaults of the descriptor. */
+static void take_defaults(OfxImageEffectHandle effect)
+{
+    for (int i = 0; i < effect->params.count; i++) {
+        const OfxParamHandle param = &effect->params.items[i];
+        const prop *const initial = find(param->props, kOfxParamPropDefault);
+        if (initial && initial->type == 's')
+            mock_set_text(effect, param->name, initial->values[0].s);
+        for (int j = 0; initial && initial->type != 's' && j < initial->count && j < 3; j++)
+            param->numbers[j] = initial->type == 'i' ? initial->values[j].i : initial->values[j].d;
+    }
+}
+
+const char *mock_param_text(OfxImageEffectHandle effect, const char *param, const char *property,
+                            int index)
+{
+    static char number[32];
+    const OfxParamHandle p = find_param(&effect->params, param);
+    const prop *const it = find(*param ? (p ? p->props : NULL) : effect->props, property);
+    if (!it || index >= it->count)
+        return NULL;
+    if (it->type == 's')
+        return it->values[index].s;
+    snprintf(number, sizeof number, "%g",
+             it->type == 'i' ? it->values[index].i : it->values[index].d);
+    return number;
+}
+
+int mock_param_count(OfxImageEffectHandle effect)
+{
+    return effect->params.count;
+}
+
+bool mock_has_param(OfxImageEffectHandle effect, const char *param)
+{
+    return find_param(&effect->params, param) != NULL;
+}
+
+/* ---- effects and clips ---- */
+
+static OfxStatus get_properties(OfxImageEffectHandle effect, OfxPropertySetHandle *props)
+{
+    *props = effect->props;
+    return kOfxStatOK;
+}
+
+static OfxStatus get_params(OfxImageEffectHandle effect, OfxParamSetHandle *params)
+{
+    *params = &effect->params;
+    return kOfxStatOK;
+}
+
+static OfxStatus clip_define(OfxImageEffectHandle effect, const char *name,
+                             OfxPropertySetHandle *props)
+{
+    static const char *const names[CLIPS_MAX] = {"Source", "Depth", "Mask", "Output"};
+    if (effect->clip_count == CLIPS_MAX)
+        return kOfxStatErrExists;
+    const OfxImageClipHandle clip = &effect->clips[effect->clip_count++];
+    snprintf(clip->name, sizeof clip->name, "%s", name);
+    for (int i = 0; i < CLIPS_MAX; i++)
+        if (strcmp(names[i], name) == 0)
+            clip->picture = &mock.pictures[i];
+    clip->props = set_new();
+    *props = clip->props;
+    return clip->picture ? kOfxStatOK : kOfxStatErrValue;
+}
+
+static OfxStatus clip_get_handle(OfxImageEffectHandle effect, const char *name,
+                                 OfxImageClipHandle *clip, OfxPropertySetHandle *props)
+{
+    for (int i = 0; i < effect->clip_count; i++)
+        if (strcmp(effect->clips[i].name, name) == 0) {
+            *clip = &effect->clips[i];
+            put_int((*clip)->props, kOfxImageClipPropConnected, 0, (*clip)->picture->connected);
+            if ((*clip)->picture->components)
+                put_text((*clip)->props, kOfxImageEffectPropComponents, 0,
+                         (*clip)->picture->components);
+            if ((*clip)->picture->alpha)
+                put_text((*clip)->props, kOfxImageEffectPropPreMultiplication, 0,
+                         (*clip)->picture->alpha);
+            if (props)
+                *props = (*clip)->props;
+            return kOfxStatOK;
+        }
+    return kOfxStatErrUnknown;
+}
+
+static void put_rect(OfxPropertySetHandle set, const char *name, wo_rect r)
+{
+    put_int(set, name, 0, r.x1);
+    put_int(set, name, 1, r.y1);
+    put_int(set, name, 2, r.x2);
+    put_int(set, name, 3, r.y2);
+}
+
+static OfxStatus clip_get_image(OfxImageClipHandle clip, OfxTime time, const OfxRectD *region,
+                                OfxPropertySetHandle *image)
+{
+    const mock_picture *const p = clip->picture;
+    (void)time;
+    *image = NULL;
+    if (p->silent)
+        return kOfxStatFailed;
+    const OfxPropertySetHandle set = set_new();
+    const bool part = !region && !wo_rect_empty(p->first);
+    const wo_rect bounds = part ? p->first : p->bounds;
+    char *data = p->data;
+    if (part && data) {
+        const int bytes = strcmp(p->components, kOfxImageComponentRGBA) == 0 ? 16 : 4;
+        data += (ptrdiff_t)(bounds.y1 - p->bounds.y1) * p->row_bytes +
+                (ptrdiff_t)(bounds.x1 - p->bounds.x1) * bytes;
+    }
+    put_pointer(set, kOfxImagePropData, 0, data);
+    put_rect(set, kOfxImagePropBounds, bounds);
+    put_int(set, kOfxImagePropRowBytes, 0, p->row_bytes);
+    put_text(set, kOfxImageEffectPropPixelDepth, 0, p->depth ? p->depth : kOfxBitDepthNone);
+    put_text(set, kOfxImageEffectPropComponents, 0,
+             p->components ? p->components : kOfxImageComponentNone);
+    if (p->alpha)
+        put_text(set, kOfxImageEffectPropPreMultiplication, 0, p->alpha);
+    mock.live_images++;
+    *image = set;
+    return kOfxStatOK;
+}
+
+static OfxStatus clip_release_image(OfxPropertySetHandle image)
+{
+    mock.live_images--;
+    set_free(image);
+    return kOfxStatOK;
+}
+
+static OfxStatus clip_get_region(OfxImageClipHandle clip, OfxTime time, OfxRectD *region)
+{
+    const mock_picture *const p = clip->picture;
+    (void)time;
+    *region = p->region;
+    if (p->region.x2 <= p->region.x1)
+        *region = (OfxRectD){p->bounds.x1, p->bounds.y1, p->bounds.x2, p->bounds.y2};
+    return p->connected ? kOfxStatOK : kOfxStatFailed;
+}
+
+const void *mock_effect_suite(bool hollow)
+{
+    static const OfxImageEffectSuiteV1 full = {
+        .getPropertySet = get_properties,
+        .getParamSet = get_params,
+        .clipDefine = clip_define,
+        .clipGetHandle = clip_get_handle,
+        .clipGetImage = clip_get_image,
+        .clipReleaseImage = clip_release_image,
+        .clipGetRegionOfDefinition = clip_get_region,
+        .abort = mock_abort,
+        .imageMemoryAlloc = mock_image_alloc,
+        .imageMemoryFree = mock_image_free,
+        .imageMemoryLock = mock_image_lock,
+        .imageMemoryUnlock = mock_image_unlock,
+    };
+    static const OfxImageEffectSuiteV1 empty = {
+        .getPropertySet = get_properties,
+        .getParamSet = get_params,
+        .clipDefine = clip_define,
+        .clipGetHandle = clip_get_handle,
+        .clipGetImage = clip_get_image,
+        .clipReleaseImage = clip_release_image,
+        .clipGetRegionOfDefinition = clip_get_region,
+    };
+    return hollow ? &empty : &full;
+}
+
+/* ---- actions ---- */
+
+static const void *fetch_suite(OfxPropertySetHandle host, const char *name, int version)
+{
+    return host ? mock_suite(name, version) : NULL;
+}
+
+OfxHost *mock_host(void)
+{
+    static struct OfxPropertySetStruct properties;
+    static OfxHost hosts[2];
+    static int calls;
+    OfxHost *const host = &hosts[calls++ % 2];
+    *host = (OfxHost){&properties, fetch_suite};
+    return host;
+}
+
+static void effect_free(OfxImageEffectHandle effect)
+{
+    for (int i = 0; i < effect->params.count; i++) {
+        set_free(effect->params.items[i].props);
+        free(effect->params.items[i].text);
+    }
+    for (int i = 0; i < effect->clip_count; i++)
+        set_free(effect->clips[i].props);
+    set_free(effect->props);
+    free(effect);
+}
+
+/* One object is descriptor and instance, which no plugin can tell apart. */
+OfxImageEffectHandle mock_create(OfxPlugin *plugin, const char *context, OfxStatus *status)
+{
+    const OfxImageEffectHandle effect = calloc(1, sizeof *effect);
+    const OfxPropertySetHandle in = set_new();
+    effect->props = set_new();
+    put_text(in, kOfxImageEffectPropContext, 0, context);
+    *status = plugin->mainEntry(kOfxActionDescribe, effect, NULL, NULL);
+    if (*status == kOfxStatOK)
+        *status = plugin->mainEntry(kOfxImageEffectActionDescribeInContext, effect, in, NULL);
+    set_free(in);
+    if (*status == kOfxStatOK) {
+        take_defaults(effect);
+        put_text(effect->props, kOfxImageEffectPropContext, 0, context);
+        put_double(effect->props, kOfxImageEffectPropProjectSize, 0, 100);
+        put_double(effect->props, kOfxImageEffectPropProjectSize, 1, 50);
+        *status = plugin->mainEntry(kOfxActionCreateInstance, effect, NULL, NULL);
+    }
+    if (*status == kOfxStatOK)
+        return effect;
+    effect_free(effect);
+    return NULL;
+}
+
+void mock_destroy(OfxPlugin *plugin, OfxImageEffectHandle effect)
+{
+    plugin->mainEntry(kOfxActionDestroyInstance, effect, NULL, NULL);
+    effect_free(effect);
+    mock_settle();
+}
+
+void mock_set_property(OfxImageEffectHandle effect, const char *name, int count,
+                       const double *values)
+{
+    prop *const p = find(effect->props, name);
+    if (p) {
+        prop_clear(p);
+        *p = effect->props->items[--effect->props->count];
+    }
+    for (int i = 0; i < count; i++)
+        put_double(effect->props, name, i, values[i]);
+}
+
+OfxStatus mock_render(OfxPlugin *plugin, OfxImageEffectHandle effect, wo_rect window,
+                      const double scale[2], const char *field)
+{
+    const OfxPropertySetHandle in = set_new();
+    put_double(in, kOfxPropTime, 0, 1);
+    put_rect(in, kOfxImageEffectPropRenderWindow, window);
+    for (int i = 0; scale && i < 2; i++)
+        put_double(in, kOfxImageEffectPropRenderScale, i, scale[i]);
+    if (field)
+        put_text(in, kOfxImageEffectPropFieldToRender, 0, field);
+    const OfxStatus status = plugin->mainEntry(kOfxImageEffectActionRender, effect, in, NULL);
+    set_free(in);
+    mock_settle();
+    return status;
+}
+
+OfxStatus mock_identity(OfxPlugin *plugin, OfxImageEffectHandle effect, char clip[64])
+{
+    const OfxPropertySetHandle in = set_new(), out = set_new();
+    char *name = NULL;
+    put_double(in, kOfxPropTime, 0, 1);
+    put_rect(in, kOfxImageEffectPropRenderWindow, (wo_rect){0, 0, 4, 4});
+    const OfxStatus status = plugin->mainEntry(kOfxImageEffectActionIsIdentity, effect, in, out);
+    get_text(out, kOfxPropName, 0, &name);
+    snprintf(clip, 64, "%s", name ? name : "");
+    set_free(in);
+    set_free(out);
+    mock_settle();
+    return status;
+}
+
+static void read_rect(OfxPropertySetHandle set, const char *name, OfxRectD *r)
+{
+    *r = (OfxRectD){0, 0, 0, 0};
+    get_double(set, name, 0, &r->x1);
+    get_double(set, name, 1, &r->y1);
+    get_double(set, name, 2, &r->x2);
+    get_double(set, name, 3, &r->y2);
+}
+
+OfxStatus mock_region(OfxPlugin *plugin, OfxImageEffectHandle effect, OfxRectD *region)
+{
+    const OfxPropertySetHandle in = set_new(), out = set_new();
+    put_double(in, kOfxPropTime, 0, 1);
+    const OfxStatus status =
+        plugin->mainEntry(kOfxImageEffectActionGetRegionOfDefinition, effect, in, out);
+    read_rect(out, kOfxImageEffectPropRegionOfDefinition, region);
+    set_free(in);
+    set_free(out);
+    mock_settle();
+    return status;
+}
+
+OfxStatus mock_needed(OfxPlugin *plugin, OfxImageEffectHandle effect, OfxRectD region,
+                      const char *clip, OfxRectD *needed)
+{
+    const OfxPropertySetHandle in = set_new(), out = set_new();
+    const double sides[4] = {region.x1, region.y1, region.x2, region.y2};
+    char name[64];
+    snprintf(name, sizeof name, "OfxImageClipPropRoI_%s", clip);
+    put_double(in, kOfxPropTime, 0, 1);
+    for (int i = 0; i < 4; i++)
+        put_double(in, kOfxImageEffectPropRegionOfInterest, i, sides[i]);
+    const OfxStatus status =
+        plugin->mainEntry(kOfxImageEffectActionGetRegionsOfInterest, effect, in, out);
+    read_rect(out, name, needed);
+    set_free(in);
+    set_free(out);
+    mock_settle();
+    return status;
+}

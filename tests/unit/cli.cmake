@@ -1,0 +1,8 @@
+# Unit tests of the command line's own parts: arguments, frames, JSON.
+set(cli ${PROJECT_SOURCE_DIR}/ofx_host_stub/cli)
+add_executable(test_cli ${CMAKE_CURRENT_LIST_DIR}/test_cli.c
+    ${cli}/args.c ${cli}/command.c ${cli}/frames.c ${cli}/json.c ${cli}/json_read.c)
+target_compile_definitions(test_cli PRIVATE _POSIX_C_SOURCE=200809L)
+target_include_directories(test_cli PRIVATE ${PROJECT_SOURCE_DIR})
+target_link_libraries(test_cli PRIVATE wo_base wo_options cmocka m)
+add_test(NAME unit.cli COMMAND test_cli)
