@@ -117,6 +117,32 @@ wo_rect wo_ofx_to_pixels(const wo_ofx_action *action, OfxRectD region)
     return pixels_of(action, cut(region, wo_ofx_to_canonical(action, all)));
 }
 
+bool wo_ofx_clip_extent(const wo_ofx_action *action, size_t clip, wo_rect *extent)
+{
+    OfxRectD region = {0, 0, 0, 0};
+    if (action->suites->effect->clipGetRegionOfDefinition(action->clips[clip].handle, action->time,
+                                                          &region) != kOfxStatOK)
+        return false;
+    *extent = wo_ofx_to_pixels(action, region);
+    return !wo_rect_empty(*extent);
+}
+
+/* Largest part of first..end inside low..high, at least one wide. */
+static void slide(int32_t *first, int32_t *end, int32_t low, int32_t high)
+{
+    *first = *first < low ? low : *first > high - 1 ? high - 1 : *first;
+    *end = *end < low + 1 ? low + 1 : *end > high ? high : *end;
+}
+
+wo_rect wo_ofx_visible(wo_rect needed, wo_rect all)
+{
+    if (wo_rect_empty(needed))
+        return (wo_rect){0, 0, 0, 0};
+    slide(&needed.x1, &needed.x2, all.x1, all.x2);
+    slide(&needed.y1, &needed.y2, all.y1, all.y2);
+    return needed;
+}
+
 OfxRectD wo_ofx_to_canonical(const wo_ofx_action *action, wo_rect pixels)
 {
     const double sx = action->aspect / action->scale[0], sy = 1 / action->scale[1];

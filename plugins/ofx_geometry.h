@@ -18,6 +18,14 @@ void wo_ofx_read_geometry(wo_ofx_action *action);
    at Source's pixels. */
 wo_rect wo_ofx_to_pixels(const wo_ofx_action *action, OfxRectD region);
 
+/* Where a clip has pixels, cut likewise; false if the host does not say. */
+bool wo_ofx_clip_extent(const wo_ofx_action *action, size_t clip, wo_rect *extent);
+
+/* The part of all, which is not empty, that somebody sees who looks at needed and takes the nearest
+   pixel wherever there is none: the common part, or the edge of all that is nearest. Empty if
+   needed is. */
+wo_rect wo_ofx_visible(wo_rect needed, wo_rect all);
+
 OfxRectD wo_ofx_to_canonical(const wo_ofx_action *action, wo_rect pixels);
 
 #endif

@@ -140,23 +140,22 @@ static wo_status fetch(wo_ofx_action *action, size_t clip, const OfxRectD *regio
     return inspect(action, action->effect->clips[clip].name, image);
 }
 
-/* Whether an image holds what is needed, as far as its clip has pixels; hosts round the sides of
-   regions in their own ways, hence the one pixel of grace. */
+/* Whether an image holds what is seen of its clip through needed; hosts round the sides of regions
+   in their own ways, hence the one pixel of grace. */
 static bool suffices(const wo_ofx_action *action, size_t clip, const wo_ofx_image *image,
                      wo_rect needed, wo_rect *wanted)
 {
-    OfxRectD region = {0, 0, 0, 0};
+    wo_rect extent;
     int sides[4];
-    if (action->suites->effect->clipGetRegionOfDefinition(action->clips[clip].handle, action->time,
-                                                          &region) != kOfxStatOK)
+    if (!wo_ofx_clip_extent(action, clip, &extent))
         return true;
-    *wanted = wo_rect_intersect(needed, wo_ofx_to_pixels(action, region));
     if (wo_ofx_read_ints(action->suites, image->handle, kOfxImagePropRegionOfDefinition, 4,
                          sides)) {
         const wo_rect all = {sides[0], sides[1], sides[2], sides[3]};
         if (!wo_rect_empty(all))
-            *wanted = wo_rect_intersect(*wanted, all);
+            extent = all;
     }
+    *wanted = wo_ofx_visible(needed, extent);
     return wo_rect_contains(wo_rect_grow(image->pixels.bounds, 1, 1), *wanted);
 }
 
@@ -186,9 +185,7 @@ wo_status wo_ofx_open_input(wo_ofx_action *action, size_t clip, wo_rect needed, 
     if (!image->pixels.data)
         return WO_OK;
 
-    wo_rect window = wo_rect_intersect(needed, image->pixels.bounds);
-    if (wo_rect_empty(window))
-        window = image->pixels.bounds; /* its edge is what the core sees then */
+    const wo_rect window = wo_ofx_visible(needed, image->pixels.bounds);
     if (is_borrowable(&image->pixels, about->components)) {
         image->view = borrowed(&image->pixels, window);
     } else {

@@ -51,11 +51,14 @@ static wo_status regions_of_interest(wo_ofx_action *action)
     const OfxRectD region = {sides[0], sides[1], sides[2], sides[3]};
     const wo_rect window = wo_ofx_to_pixels(action, region);
     for (size_t i = 0; i < effect->clip_count; i++) {
-        wo_rect needed = {0, 0, 0, 0};
+        wo_rect needed = {0, 0, 0, 0}, extent;
         if (!action->geometry.connected[i])
             continue;
         WO_TRY(
             effect->region(action->params, &action->geometry, window, i, &needed, &action->error));
+        /* Never nothing: a window beside a small clip still sees its edge. */
+        if (wo_ofx_clip_extent(action, i, &extent))
+            needed = wo_ofx_visible(needed, extent);
         /* A host that does not know the property fetches what it likes; render looks again. */
         set_rect(action, clip_property(name, "OfxImageClipPropRoI_", effect->clips[i].name),
                  wo_ofx_to_canonical(action, needed));

@@ -117,7 +117,7 @@ void wo_pixels_read(const wo_pixels *from, const wo_image *to)
         const char *at = address(from, to->bounds.x1, y);
         float *target = wo_image_at(to, to->bounds.x1, y);
         for (int32_t x = to->bounds.x1; x < to->bounds.x2; x++) {
-            float pixel[4];
+            float pixel[4] = {0, 0, 0, 0};
             for (int32_t i = 0; i < from->components; i++)
                 pixel[i] = load(at + (size_t)i * bytes, from->depth);
             map_components(pixel, from->components, target, to->components);

@@ -210,7 +210,8 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
                 }
                 /* Where along the axis the surface is met, beside this pixel's centre. */
                 const vf cross_t = v_sub(v_div(e0, v_sub(e0, e)), one);
-                const vf t = v_mul(v_set((float)dir), v_select(crossed, cross_t, e));
+                const vf t =
+                    v_mask(m, v_mul(v_set((float)dir), v_select(crossed, cross_t, e)));
                 const vf across = v_fma(v_set(l.slope), t,
                                         v_set(l.n0 + l.slope * (float)i - (float)j));
                 if (l.upright)

@@ -42,29 +42,28 @@ static int32_t clamp_to(int32_t x, int32_t low, int32_t high)
     return x < low ? low : x >= high ? high - 1 : x;
 }
 
-/* Colour of one pixel, premultiplied, finite. */
-static void read_colour(const wo_sheet_source *source, int32_t x, int32_t y, bool counted,
-                        float c[4], wo_sheet_counts *counts)
+int wo_read_colour(const wo_image *image, wo_alpha alpha, int32_t x, int32_t y, float c[4])
 {
-    const wo_image *image = source->colour;
+    int sanitised = 0;
     const float *p = wo_image_at(image, clamp_to(x, image->bounds.x1, image->bounds.x2),
                                  clamp_to(y, image->bounds.y1, image->bounds.y2));
     const int n = image->components;
     c[3] = 1;
     for (int i = 0; i < 3; i++)
         c[i] = n == 1 ? p[0] : p[i];
-    if (n == 4 && source->alpha != WO_ALPHA_OPAQUE)
+    if (n == 4 && alpha != WO_ALPHA_OPAQUE)
         c[3] = p[3];
     for (int i = 0; i < 4; i++) {
         if (!isfinite(c[i])) {
             c[i] = 0;
-            counts->sanitised_colour += counted;
+            sanitised++;
         }
     }
     c[3] = fminf(fmaxf(c[3], 0), 1);
-    if (n == 4 && source->alpha == WO_ALPHA_UNPREMULTIPLIED)
+    if (n == 4 && alpha == WO_ALPHA_UNPREMULTIPLIED)
         for (int i = 0; i < 3; i++)
             c[i] *= c[3];
+    return sanitised;
 }
 
 static double read_vergence(const wo_sheet_source *source, int32_t x, int32_t y, bool *valid)
@@ -103,7 +102,8 @@ static void load_row(void *user, size_t index, unsigned worker)
         const size_t at = index * w + i;
         const bool counted = row_counted && x >= job->counted.x1 && x < job->counted.x2;
         float *c = job->sheet->c[at];
-        read_colour(source, x, y, counted, c, counts);
+        const int sanitised = wo_read_colour(source->colour, source->alpha, x, y, c);
+        counts->sanitised_colour += counted ? sanitised : 0;
         bool valid;
         double v = read_vergence(source, x, y, &valid);
         const bool empty = c[3] == 0 && c[0] == 0 && c[1] == 0 && c[2] == 0;
@@ -113,6 +113,7 @@ static void load_row(void *user, size_t index, unsigned worker)
         }
         counts->sanitised_depth += counted && !valid;
         job->seen[at] = v > V_NONE;
+        v -= source->v_origin;
         if (v < source->v_min || v > source->v_max) {
             v = fmin(fmax(v, source->v_min), source->v_max);
             counts->clamped_radius += counted;

@@ -9,10 +9,11 @@
 #include "wideopen/optics.h"
 
 /* A sheet: one layer of the scene made ready for the renderer. Each pixel of area is a small patch of
-   surface at vergence v, premultiplied colour and coverage c, or nothing (v is NaN). */
+   surface at vergence v, premultiplied colour and coverage c, or nothing (v is NaN). Vergences
+   inside the renderer are counted from the focus, so that they stay exact where it matters. */
 typedef struct wo_sheet {
     wo_rect area;
-    float *v;      /* [h][w] dioptres; NaN = no surface */
+    float *v;      /* [h][w] dioptres from v_origin; NaN = no surface */
     float (*c)[4]; /* [h][w] r g b a */
     bool guessed;  /* invented: what no layer of the scene holds */
     bool any;      /* holds at least one surface */
@@ -33,7 +34,8 @@ typedef struct wo_sheet_source {
     wo_rect format;   /* the optical axis goes through its centre */
     double focal_px;  /* for WO_DEPTH_RAY */
     double stretch;   /* vertical px per horizontal px */
-    double v_min, v_max; /* surfaces beyond are drawn here: the cut to the largest radius */
+    double v_origin;     /* 1/m, taken from every vergence: the focus */
+    double v_min, v_max; /* from the origin; surfaces beyond are drawn there: largest radius */
 } wo_sheet_source;
 
 /* What was met on the way; added to. */
@@ -51,6 +53,10 @@ typedef struct wo_sheet_counts {
 WO_NODISCARD wo_status wo_sheet_load(const wo_context *context, const wo_sheet_source *source,
                                      wo_rect counted, wo_sheet *sheet, wo_sheet_counts *counts,
                                      wo_error *error);
+
+/* Colour of one pixel: premultiplied, finite, coverage 0..1; outside the bounds the nearest pixel.
+   Returns how many samples were not finite. */
+int wo_read_colour(const wo_image *image, wo_alpha alpha, int32_t x, int32_t y, float c[4]);
 
 /* px that wo_sheet_load looks beyond a pixel. */
 #define WO_SHEET_LOAD_MARGIN 2

@@ -86,11 +86,9 @@ static void seed_row(void *user, size_t index, unsigned worker)
                 sum[5] += 1;
             }
         }
-        if (sum[5] > 0)
-            for (int k = 0; k < CHANNELS; k++)
-                sum[k] /= k < 5 ? sum[5] : 1;
-        if (sum[5] > 0)
-            sum[5] = 1;
+        const float scale = sum[5] > 0 ? 1 / sum[5] : 0;
+        for (int k = 0; k < CHANNELS; k++)
+            sum[k] *= scale;
     }
 }
 
@@ -109,9 +107,9 @@ static void pull_row(void *user, size_t index, unsigned worker)
                     j < fine->cells.y2)
                     for (int k = 0; k < CHANNELS; k++)
                         sum[k] += fine->sum[cell_at(fine, i, j)][k];
-        if (sum[5] > 1)
-            for (int k = CHANNELS - 1; k >= 0; k--)
-                sum[k] /= sum[5];
+        const float scale = sum[5] > 1 ? 1 / sum[5] : 1;
+        for (int k = 0; k < CHANNELS; k++)
+            sum[k] *= scale;
     }
 }
 

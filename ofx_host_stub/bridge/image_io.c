@@ -260,8 +260,8 @@ const wo_io_format *wo_io_format_of(const char *path)
     static const wo_io_format formats[] = {
         /* extension, library's name, read, write, automatic, byte, short, single, alpha, grey */
         {"png", "png", true, true, WO_IO_BYTE, true, true, false, true, true},
-        {"tif", "tiff", true, true, WO_IO_SINGLE, true, true, true, true, true},
-        {"tiff", "tiff", true, true, WO_IO_SINGLE, true, true, true, true, true},
+        {"tif", "tiff", true, true, WO_IO_SHORT, true, true, true, true, true},
+        {"tiff", "tiff", true, true, WO_IO_SHORT, true, true, true, true, true},
         {"jpg", "jpeg", true, true, WO_IO_BYTE, true, false, false, false, true},
         {"jpeg", "jpeg", true, true, WO_IO_BYTE, true, false, false, false, true},
         {"dpx", "dpx", true, true, WO_IO_AUTO, true, true, false, true, true},

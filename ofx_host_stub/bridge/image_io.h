@@ -82,7 +82,7 @@ typedef enum wo_io_depth { WO_IO_AUTO, WO_IO_BYTE, WO_IO_SHORT, WO_IO_HALF, WO_I
    none, rle, zips, zip, piz. Several parts need different names.
    png tif tiff jpg jpeg dpx hdr tga bmp ppm take one part of 1 to 4 channels and show the display
    window: what lies outside is cut, what is missing is 0. WO_IO_AUTO is 8 bits for png jpg tga
-   bmp ppm, 10 for dpx, float for tif and hdr. Integers are clipped to 0..1, rounded to nearest,
+   bmp ppm, 10 for dpx, 16 for tif, float for hdr. Integers are clipped to 0..1, rounded to nearest,
    NaN becomes 0. Alpha is left out where the format has none. Values are stored as they are: PNG
    and TGA readers expect colour that is not multiplied by alpha (see wo_io_unpremultiply); TIFF is
    tagged by the attribute "oiio:UnassociatedAlpha". */

@@ -161,8 +161,8 @@ int bits_of(const OIIO::ImageSpec &spec)
     return said > 0 && said <= 32 ? said : static_cast<int>(spec.format.size() * 8);
 }
 
-wo_status fill_head(wo_io_part *part, const char *path, const OIIO::ImageSpec &spec,
-                    uint64_t *bytes, wo_error *error)
+wo_status fill_head(wo_io_part *part, const char *path, const wo_io_format *format,
+                    const OIIO::ImageSpec &spec, uint64_t *bytes, wo_error *error)
 {
     const bool framed = spec.full_width > 0 && spec.full_height > 0;
     const int64_t frame_width = framed ? spec.full_width : spec.width;
@@ -189,7 +189,10 @@ wo_status fill_head(wo_io_part *part, const char *path, const OIIO::ImageSpec &s
     for (const OIIO::ParamValue &value : spec.extra_attribs)
         if (value.name() != "PixelAspectRatio" && value.name() != "oiio:subimagename")
             WO_TRY(add_attribute(part, value, error));
-    char *const space = wo_io_copy_text(spec.get_string_attribute("oiio:ColorSpace").c_str());
+    /* PNM files say nothing; the library makes them Rec.709, other programs write sRGB */
+    const bool silent = !std::strcmp(format->library_name, "pnm");
+    char *const space = wo_io_copy_text(
+        silent ? "" : spec.get_string_attribute("oiio:ColorSpace").c_str());
     if (!space)
         return wo_fail(error, WO_ERR_NOMEM, "no memory for a colour space");
     std::free(part->colour_space);
@@ -217,14 +220,15 @@ wo_status check_plausible(const char *path, const OIIO::ImageSpec &spec, wo_erro
     return WO_OK;
 }
 
-/* One subimage; *spec is what its header says. */
-wo_status read_part(OIIO::ImageInput *input, const char *path, int index, bool headers_only,
-                    wo_io_part *part, uint64_t *bytes, wo_error *error)
+/* One subimage. */
+wo_status read_part(OIIO::ImageInput *input, const char *path, const wo_io_format *format,
+                    int index, bool headers_only, wo_io_part *part, uint64_t *bytes,
+                    wo_error *error)
 {
     const OIIO::ImageSpec spec = input->spec(index);
     if (spec.nchannels < 1)
         return failure(error, WO_ERR_FORMAT, path, words_of(input));
-    WO_TRY(fill_head(part, path, spec, bytes, error));
+    WO_TRY(fill_head(part, path, format, spec, bytes, error));
     if (headers_only)
         return WO_OK;
     WO_TRY(check_plausible(path, spec, error));
@@ -261,7 +265,8 @@ wo_status read_file(const char *path, const wo_io_format *format, bool headers_o
         return wo_fail(error, WO_ERR_NOMEM, "no memory for an image file");
     uint64_t bytes = 0;
     for (int i = 0; i < count; i++)
-        WO_TRY(read_part(input.get(), path, i, headers_only, &(*file)->parts[i], &bytes, error));
+        WO_TRY(read_part(input.get(), path, format, i, headers_only, &(*file)->parts[i], &bytes,
+                         error));
     return WO_OK;
 }
 

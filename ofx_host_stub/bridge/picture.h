@@ -35,7 +35,7 @@ WO_NODISCARD wo_status wo_picture_compare(const wo_image *ref, const wo_image *o
    snprintf does. */
 int wo_picture_json(const wo_picture_error *result, char *buffer, size_t size);
 
-/* Changes the size; smaller by area average, larger by cubic interpolation. */
+/* Changes the size; smaller by area average, larger by linear interpolation. */
 WO_NODISCARD wo_status wo_picture_resize(const wo_image *image, int32_t width, int32_t height,
                                          wo_image *result, wo_error *error);
 

@@ -4,8 +4,6 @@
 #include "json.h"
 #include "session.h"
 
-#include <math.h>
-
 static const wo_option options[] = {
     {"--json", NULL, NULL, "Print JSON: every context with its clips and parameters.", false},
     {"--context", NULL, "NAME",
@@ -51,14 +49,6 @@ static void print_text(const wo_host_plugin *plugin, const wo_host_context_info 
     wo_print_params(stdout, context);
 }
 
-static void json_numbers(wo_json *json, const char *key, const double *values, int count)
-{
-    wo_json_array(json, key);
-    for (int i = 0; i < count; i++)
-        wo_json_number(json, NULL, values[i]);
-    wo_json_close(json);
-}
-
 static void json_param(wo_json *json, const wo_host_param_info *param)
 {
     wo_json_object(json, NULL);
@@ -69,11 +59,11 @@ static void json_param(wo_json *json, const wo_host_param_info *param)
     wo_json_text(json, "parent", param->parent);
     wo_json_text(json, "type", wo_host_param_type_text(param->kind));
     if (param->dimension > 0) {
-        json_numbers(json, "default", param->initial, param->dimension);
-        json_numbers(json, "min", param->min, param->dimension);
-        json_numbers(json, "max", param->max, param->dimension);
-        json_numbers(json, "displayMin", param->ui_min, param->dimension);
-        json_numbers(json, "displayMax", param->ui_max, param->dimension);
+        wo_json_numbers(json, "default", param->initial, param->dimension);
+        wo_json_numbers(json, "min", param->min, param->dimension);
+        wo_json_numbers(json, "max", param->max, param->dimension);
+        wo_json_numbers(json, "displayMin", param->ui_min, param->dimension);
+        wo_json_numbers(json, "displayMax", param->ui_max, param->dimension);
     } else if (param->initial_text) {
         wo_json_text(json, "default", param->initial_text);
     }

@@ -242,10 +242,11 @@ static int add_clip(wo_render_job *job, const char *text)
         return unknown_clip(job, name);
     if (wo_inputs_find(job->inputs, clip->name))
         return wo_usage_fault("render", "clip %s is given twice", clip->name);
-    wo_error error = {0};
-    if (wo_inputs_add(job->inputs, clip, equals + 1, job->frames.numbers[0], &error) != WO_OK)
-        return wo_failure(&error);
-    return WO_EXIT_OK;
+    wo_error why = {0}, error = {0};
+    if (wo_inputs_add(job->inputs, clip, equals + 1, job->frames.numbers[0], &why) == WO_OK)
+        return WO_EXIT_OK;
+    wo_fail(&error, why.status, "clip %s: %s", clip->name, why.text);
+    return wo_failure(&error);
 }
 
 static int add_clips(wo_render_job *job)
@@ -367,7 +368,21 @@ static int unknown_param(const wo_render_job *job, const char *name)
                           name, hits ? "did you mean" : "there are", near);
 }
 
-/* "name=value", or "name@frame:value,..." for keys alone. */
+/* Writes keys without the name that may stand before each "@"; keys has room for text. */
+static void strip_names(const char *name, const char *text, char *keys)
+{
+    const size_t length = strlen(name);
+    bool start = true; /* of the text, or behind a comma */
+    while (*text) {
+        if (start && strncmp(text, name, length) == 0 && text[length] == '@')
+            text += length;
+        start = *text == ',';
+        *keys++ = *text++;
+    }
+    *keys = '\0';
+}
+
+/* "name=value", or "name@frame:value,name@frame:value,..." for keys. */
 static int set_param(wo_render_job *job, const char *text)
 {
     const size_t length = strcspn(text, "=@");
@@ -378,13 +393,22 @@ static int set_param(wo_render_job *job, const char *text)
     const wo_host_param_info *const param = wo_host_find_param(job->context, name);
     if (!param)
         return unknown_param(job, name);
-    const char *const value = text[length] == '=' ? text + length + 1 : text;
+    char *const value = malloc(strlen(text) + 1);
+    if (!value) {
+        wo_message("out of memory for --set %.80s", text);
+        return WO_EXIT_FAILURE;
+    }
+    if (text[length] == '=')
+        strcpy(value, text + length + 1);
+    else
+        strip_names(name, text, value);
     wo_error error = {0};
-    if (wo_host_param_set_text(job->instance, param->name, value, &error) == WO_OK)
+    const wo_status status = wo_host_param_set_text(job->instance, param->name, value, &error);
+    free(value);
+    if (status == WO_OK)
         return WO_EXIT_OK;
-    return error.status == WO_ERR_NOMEM
-               ? wo_failure(&error)
-               : wo_usage_fault("render", "--set %s: %s", text, error.text);
+    return status == WO_ERR_NOMEM ? wo_failure(&error)
+                                  : wo_usage_fault("render", "--set %s: %s", text, error.text);
 }
 
 /* ----------------------------------------------------------------------------------------- the run */
@@ -428,8 +452,10 @@ static int run(wo_render_job *job)
     int code = read_job(job);
     if (code == WO_EXIT_OK)
         code = open_plugin(job);
+    const double start = wo_seconds();
     if (code == WO_EXIT_OK)
         code = open_files(job);
+    job->opening_seconds = wo_seconds() - start;
     if (code != WO_EXIT_OK)
         return code;
     char made_by[256];

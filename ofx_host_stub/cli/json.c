@@ -118,11 +118,10 @@ void wo_json_text(wo_json *json, const char *key, const char *text)
         fputs("null", json->out);
 }
 
-void wo_json_number(wo_json *json, const char *key, double number)
+static void number_text(FILE *out, double number)
 {
-    lead(json, key);
     if (!isfinite(number)) {
-        fputs("null", json->out);
+        fputs("null", out);
         return;
     }
     char text[64];
@@ -135,11 +134,28 @@ void wo_json_number(wo_json *json, const char *key, double number)
     for (const char *s = text; *s; s++) {
         const bool plain = strchr("+-0123456789e", *s) != NULL;
         if (plain)
-            fputc(*s, json->out);
+            fputc(*s, out);
         else if (!inside_point)
-            fputc('.', json->out);
+            fputc('.', out);
         inside_point = !plain;
     }
+}
+
+void wo_json_number(wo_json *json, const char *key, double number)
+{
+    lead(json, key);
+    number_text(json->out, number);
+}
+
+void wo_json_numbers(wo_json *json, const char *key, const double *numbers, int count)
+{
+    lead(json, key);
+    fputc('[', json->out);
+    for (int i = 0; i < count; i++) {
+        fputs(i ? ", " : "", json->out);
+        number_text(json->out, numbers[i]);
+    }
+    fputc(']', json->out);
 }
 
 void wo_json_integer(wo_json *json, const char *key, long long number)

@@ -29,6 +29,7 @@ void wo_json_close(wo_json *json); /* the innermost object or array; a line feed
 void wo_json_text(wo_json *json, const char *key, const char *text); /* NULL writes null */
 void wo_json_number(wo_json *json, const char *key, double number);
 void wo_json_integer(wo_json *json, const char *key, long long number);
+void wo_json_numbers(wo_json *json, const char *key, const double *numbers, int count); /* array */
 void wo_json_bool(wo_json *json, const char *key, bool value);
 
 /* Text that claims to be JSON itself: written as it stands when wo_json_valid, else as a string. */

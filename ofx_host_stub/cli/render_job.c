@@ -4,6 +4,7 @@
 
 #include <limits.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -48,6 +49,21 @@ static bool is_set_by_user(const wo_args *args, const wo_host_param_info *param)
     return false;
 }
 
+/* Facts are stored as 32-bit floats: 1.4 comes as 1.39999998. Gives the shortest number that is the same
+   float. */
+static double tidy(double number)
+{
+    const float exact = (float)number;
+    for (int digits = 6; exact == number && digits < 9; digits++) {
+        char text[32];
+        snprintf(text, sizeof text, "%.*g", digits, number);
+        const double shorter = strtod(text, NULL);
+        if ((float)shorter == exact)
+            return shorter;
+    }
+    return number;
+}
+
 /* Gives the plugin's camera parameters the values that Source's file names; says so for the first
    frame. A value the plugin refuses is left out, with its reason. */
 static void apply_metadata(wo_render_job *job, const wo_input *source)
@@ -64,11 +80,12 @@ static void apply_metadata(wo_render_job *job, const wo_input *source)
             is_set_by_user(job->args, param))
             continue;
         wo_error error = {0};
-        if (wo_host_param_set(job->instance, param->name, &fact->number, 1, &error) != WO_OK)
+        const double number = tidy(fact->number);
+        if (wo_host_param_set(job->instance, param->name, &number, 1, &error) != WO_OK)
             wo_message("%s of %s is not used: %s", key, wo_input_file(source), error.text);
         else if (used < sizeof taken)
             used += (size_t)snprintf(taken + used, sizeof taken - used, "%s%s %g",
-                                     used ? ", " : "", names[i], fact->number);
+                                     used ? ", " : "", names[i], number);
     }
     if (used > 0 && job->frame_index == 0)
         wo_message("camera of %s: %s (--no-metadata leaves it alone)", wo_input_file(source), taken);
@@ -131,11 +148,30 @@ static void tell_plan(const wo_render_job *job, const wo_frame_record *frame)
         wo_message("%s does not tell its plan", job->plugin->identifier);
 }
 
+/* --window, cut to where the plugin has pixels; empty when there was none. */
+static wo_status cut_window(wo_render_job *job, double time, wo_rect *window, wo_error *error)
+{
+    wo_host_region region;
+    wo_rect all;
+    *window = job->render.window;
+    if (wo_rect_empty(*window))
+        return WO_OK;
+    WO_TRY(wo_host_get_region(job->instance, time, job->render.scale_x, job->render.scale_y,
+                              &region, &all, error));
+    *window = wo_rect_intersect(*window, all);
+    if (wo_rect_empty(*window))
+        return wo_fail(error, WO_ERR_RANGE,
+                       "--window holds no pixel of the picture, which reaches from %d,%d to %d,%d",
+                       all.x1, all.y1, all.x2, all.y2);
+    return WO_OK;
+}
+
 static wo_status render_image(wo_render_job *job, wo_frame_record *frame, wo_image *image,
                               wo_error *error)
 {
     wo_host_render_args args = job->render;
     wo_host_render_result result = {0};
+    WO_TRY(cut_window(job, frame->frame, &args.window, error));
     args.time = frame->frame;
     args.first_frame = job->frames.first;
     args.last_frame = job->frames.last;
@@ -143,9 +179,17 @@ static wo_status render_image(wo_render_job *job, wo_frame_record *frame, wo_ima
     args.report = job->explain ? WO_HOST_REPORT_EXPLAIN : WO_HOST_REPORT_RENDER;
     args.report_user = frame;
     args.publish = publish;
+    wo_bar_begin(&job->bar,
+                 wo_bar_wanted(wo_args_count(job->args, "--progress") > 0,
+                               wo_args_count(job->args, "--no-progress") > 0),
+                 job->plugin->label);
+    wo_render_progress(job, "", 0);
     const double start = wo_seconds();
     const wo_status status = wo_host_render(job->instance, &args, image, &result, error);
     frame->render_seconds = wo_seconds() - start;
+    pthread_mutex_lock(&job->lock);
+    wo_bar_end(&job->bar);
+    pthread_mutex_unlock(&job->lock);
     frame->window = result.window;
     frame->actions = result.tiles;
     frame->identity = result.identity;
@@ -166,7 +210,8 @@ static wo_status render_frame(wo_render_job *job, wo_frame_record *frame, wo_err
         apply_metadata(job, source);
     if (job->frame_index == 0 && !wo_record_begin(&job->record, job->instance, frame->frame))
         return wo_fail(error, WO_ERR_NOMEM, "out of memory for the report");
-    frame->read_seconds = wo_seconds() - start;
+    frame->read_seconds = wo_seconds() - start + job->opening_seconds;
+    job->opening_seconds = 0;
 
     wo_image image = {0};
     WO_TRY(render_image(job, frame, &image, error));
@@ -177,7 +222,7 @@ static wo_status render_frame(wo_render_job *job, wo_frame_record *frame, wo_err
         frame->write_seconds = wo_seconds() - rendered;
     } else if (!job->explain) {
         status = wo_fail(error, WO_ERR_RANGE,
-                         "frame %d: the window holds no pixel of the picture; nothing is written",
+                         "frame %d has no pixels: nothing is written",
                          frame->frame);
     }
     wo_host_image_free(&image);
@@ -194,16 +239,8 @@ wo_status wo_render_frames(wo_render_job *job, wo_error *error)
         if (!frame)
             return wo_fail(error, WO_ERR_NOMEM, "out of memory for the report");
         job->frame_index = i;
-        wo_bar_begin(&job->bar,
-                     wo_bar_wanted(wo_args_count(job->args, "--progress") > 0,
-                                   wo_args_count(job->args, "--no-progress") > 0),
-                     job->plugin->label);
-        wo_render_progress(job, "", 0);
         status = wo_interrupted(NULL) ? wo_fail(error, WO_ABORTED, "interrupted")
                                       : render_frame(job, frame, error);
-        pthread_mutex_lock(&job->lock);
-        wo_bar_end(&job->bar);
-        pthread_mutex_unlock(&job->lock);
         if (status == WO_OK && !job->explain)
             tell_frame(frame);
         else if (status == WO_OK && !json)

@@ -51,6 +51,10 @@ wo_status wo_output_check(const wo_output *output, int frame, wo_error *error)
                        "cannot write %s: its extension must be one of exr png tif tiff jpg jpeg "
                        "dpx hdr tga bmp ppm",
                        path);
+    if (strcasecmp(extension(path), "exr") == 0 &&
+        (output->depth == WO_IO_BYTE || output->depth == WO_IO_SHORT))
+        return wo_fail(error, WO_ERR_UNSUPPORTED,
+                       "cannot write %s: EXR holds half or float, no integers; see --bits", path);
     return check_folder(path, error);
 }
 

@@ -107,12 +107,8 @@ static void write_frame(wo_json *json, const wo_frame_record *frame)
     wo_json_object(json, NULL);
     wo_json_integer(json, "frame", frame->frame);
     wo_json_text(json, "output", frame->output);
-    wo_json_array(json, "window");
-    wo_json_integer(json, NULL, frame->window.x1);
-    wo_json_integer(json, NULL, frame->window.y1);
-    wo_json_integer(json, NULL, frame->window.x2);
-    wo_json_integer(json, NULL, frame->window.y2);
-    wo_json_close(json);
+    const wo_rect w = frame->window;
+    wo_json_numbers(json, "window", (const double[]){w.x1, w.y1, w.x2, w.y2}, 4);
     wo_json_text(json, "identity", frame->identity ? frame->identity_clip : NULL);
     wo_json_integer(json, "actions", frame->actions);
     wo_json_object(json, "seconds");

@@ -123,7 +123,7 @@ void wo_buffer_blank(const wo_buffer *buffer)
     }
 }
 
-void wo_buffer_check(wo_host *host, const wo_buffer *buffer, wo_rect window)
+void wo_buffer_check(const wo_frame *frame, const wo_buffer *buffer, wo_rect window)
 {
     const wo_image *view = &buffer->view;
     const wo_rect b = view->bounds;
@@ -143,9 +143,9 @@ void wo_buffer_check(wo_host *host, const wo_buffer *buffer, wo_rect window)
         }
     }
     if (outside > 0)
-        wo_violate(host, "pixels of the output outside of the render window were written");
+        wo_violate_in(frame, "pixels of the output outside of the render window were written");
     if (inside > 0)
-        wo_violate(host, "pixels of the render window were not written");
+        wo_violate_in(frame, "pixels of the render window were not written");
 }
 
 void wo_convert_row(const float *from, int32_t from_components, float *to, int32_t to_components,

@@ -74,34 +74,46 @@ void wo_note(wo_host *host, const char *format, ...)
     (void)wo_texts_add(&host->notes, text); /* a note that is lost for lack of memory harms nobody */
 }
 
-void wo_violate(wo_host *host, const char *format, ...)
+static void violate(wo_host *host, const wo_frame *frame, const char *format, va_list args)
 {
     char text[1024];
-    const wo_frame *frame = wo_frame_now();
-    host = wo_host_to_blame(host);
-    if (!host)
-        return;
     int length = 0;
-    if (frame && frame->host == host)
+    if (frame && frame->host == host && frame->entry)
         length = snprintf(text, sizeof text, "%s: %s: ", frame->entry->info.identifier,
                           wo_action_text(frame->action));
     else
         length = snprintf(text, sizeof text, "outside of actions: ");
     if (length < 0 || (size_t)length >= sizeof text)
         length = 0;
-    va_list args;
-    va_start(args, format);
     vsnprintf(text + length, sizeof text - (size_t)length, format, args);
-    va_end(args);
 
     pthread_mutex_lock(&host->lock);
     bool known = false;
     for (size_t i = 0; i < host->violations.count && !known; i++)
         known = strcmp(host->violations.items[i], text) == 0;
-    if (!known && (host->violations.count >= VIOLATIONS_MAX ||
-                   !wo_texts_add(&host->violations, text)))
-        host->violations_lost++;
+    if (!known && host->violations.count < VIOLATIONS_MAX)
+        (void)wo_texts_add(&host->violations, host->violations.count + 1 < VIOLATIONS_MAX
+                                                  ? text
+                                                  : "there were more than can be listed");
     pthread_mutex_unlock(&host->lock);
+}
+
+void wo_violate(wo_host *host, const char *format, ...)
+{
+    va_list args;
+    host = wo_host_to_blame(host);
+    va_start(args, format);
+    if (host)
+        violate(host, wo_frame_now(), format, args);
+    va_end(args);
+}
+
+void wo_violate_in(const wo_frame *frame, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    violate(frame->host, frame, format, args);
+    va_end(args);
 }
 
 size_t wo_host_violation_count(wo_host *host)
@@ -124,7 +136,6 @@ void wo_host_violations_clear(wo_host *host)
 {
     pthread_mutex_lock(&host->lock);
     wo_texts_clear(&host->violations);
-    host->violations_lost = 0;
     pthread_mutex_unlock(&host->lock);
 }
 

@@ -238,7 +238,6 @@ struct wo_host {
     wo_pool *pool;
     pthread_mutex_t lock; /* violations */
     wo_texts violations;
-    size_t violations_lost;
     wo_texts notes;
     wo_entry **entries;
     size_t entry_count, entry_capacity;
@@ -251,6 +250,7 @@ struct wo_host {
 /* Writes down a breach. host may be NULL: the host of the present action, or any. Takes the host's
    lock only. */
 void wo_violate(wo_host *host, const char *format, ...) WO_PRINTF(2, 3);
+void wo_violate_in(const wo_frame *frame, const char *format, ...) WO_PRINTF(2, 3); /* afterwards */
 wo_host *wo_host_to_blame(wo_host *host); /* host itself, or as above; NULL when there is none */
 void wo_note(wo_host *host, const char *format, ...) WO_PRINTF(2, 3);
 
@@ -438,8 +438,6 @@ struct wo_host_instance {
     atomic_int report;
     void *report_user;
     void (*publish)(void *user, const char *kind, const char *text);
-    unsigned tiles;
-    double seconds;
     wo_host_instance *next;
 };
 
@@ -456,8 +454,17 @@ WO_NODISCARD wo_status wo_tell_changed(wo_host_instance *instance, const char *t
                                        const char *name, const char *reason, wo_error *error);
 void wo_mark_changed(wo_host_instance *instance, const char *param);
 
-/* prepare.c */
+/* preferences.c: clip preferences and colourspaces, when they are stale */
 WO_NODISCARD wo_status wo_prepare(wo_host_instance *instance, wo_error *error);
+
+/* prepare.c */
+typedef struct wo_clip_name {
+    char text[256]; /* longer ones are cut, here and where they are read */
+} wo_clip_name;
+wo_clip_name wo_with_clip(const char *prefix, const wo_port *port); /* "OfxImageClipPropRoI_Mask" */
+/* Begins the arguments of an action: its time, and with scale (or NULL) its render scale. */
+void wo_arguments(wo_props *in, wo_props *out, wo_host_instance *instance, double time,
+                  const double scale[2]);
 wo_rect wo_region_pixels(wo_host_region region, double scale_x, double scale_y, double aspect);
 wo_host_region wo_pixels_region(wo_rect pixels, double scale_x, double scale_y, double aspect);
 bool wo_region_infinite(wo_host_region region);
@@ -477,7 +484,7 @@ bool wo_buffer_intact(const wo_buffer *buffer); /* guards and padding */
 uint64_t wo_buffer_sum(const wo_buffer *buffer); /* of the pixels */
 /* Fills an output with a value no plugin writes; then looks for it inside and outside of the window. */
 void wo_buffer_blank(const wo_buffer *buffer);
-void wo_buffer_check(wo_host *host, const wo_buffer *buffer, wo_rect window);
+void wo_buffer_check(const wo_frame *frame, const wo_buffer *buffer, wo_rect window);
 WO_NODISCARD wo_status wo_fetch_pixels(wo_port *port, double time, const double scale[2],
                                        const wo_image *image, wo_error *error);
 OfxStatus wo_image_hand_out(wo_host_instance *instance, wo_port *port, double time,

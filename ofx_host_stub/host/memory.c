@@ -72,7 +72,9 @@ static wo_block *block_new(const wo_object *object, size_t bytes)
     block->data = data;
     block->bytes = bytes;
     block->object = object;
-    block->plugin = object ? object->entry->plugin : frame ? frame->entry->plugin : NULL;
+    block->plugin = object                  ? object->entry->plugin
+                    : frame && frame->entry ? frame->entry->plugin
+                                            : NULL;
     return block;
 }
 

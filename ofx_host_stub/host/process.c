@@ -182,6 +182,7 @@ void wo_process_leave(wo_host *host)
     if (!last)
         return;
     wo_props_clear(&process.properties);
+    wo_mutexes_check_left(NULL);
     wo_process_lock();
     wo_memory_forget();
     /* Generations go on, so that handles of this life are stale in the next. */
@@ -209,5 +210,5 @@ wo_host *wo_host_to_blame(wo_host *host)
     if (host)
         return host;
     const wo_frame *frame = wo_frame_now();
-    return frame ? frame->host : any_host();
+    return frame && frame->host ? frame->host : any_host();
 }

@@ -1,0 +1,244 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "defocus/highlights.h"
+
+#include "defocus/march.h"
+
+#include <math.h>
+
+static int32_t floor_div(int32_t x, int32_t d)
+{
+    return x >= 0 ? x / d : -((d - 1 - x) / d);
+}
+
+typedef struct take_job {
+    wo_sheet *sheets;
+    size_t sheet_count;
+    wo_rect area;
+    const wo_lens *lens;
+    wo_highlights *out;
+    size_t *counts; /* [tiles] */
+    bool fill;
+} take_job;
+
+/* Vergences of highlights are rounded to steps of 1/QUANTUM px of blur, so that few shares are worked
+   out; CACHE of them are kept. */
+#define QUANTUM 32.0
+enum { CACHE = 64 };
+
+typedef struct share_cache {
+    float v[CACHE];
+    double share[CACHE];
+    int count;
+} share_cache;
+
+/* Share of the light that reaches one pixel for a unit of connect density, so that the sum over all
+   pixels is 1. */
+static double share(const wo_lens *lens, float v, float reach)
+{
+    const int32_t r = (int32_t)ceilf(reach);
+    double sum = 0;
+    double line[4];
+    for (int32_t dy = -r; dy <= r; dy++)
+        for (int32_t dx = -r; dx <= r; dx++)
+            sum += lens->connect(lens->self, dx, dy, v, line);
+    return sum > 0 ? 1 / sum : 0;
+}
+
+static double cached_share(share_cache *cache, const wo_lens *lens, float v, float reach)
+{
+    for (int i = 0; i < cache->count && i < CACHE; i++)
+        if (cache->v[i] == v)
+            return cache->share[i];
+    const int at = cache->count++ % CACHE;
+    cache->v[at] = v;
+    return cache->share[at] = share(lens, v, reach);
+}
+
+static void take_tile(void *user, size_t index, unsigned worker)
+{
+    (void)worker;
+    take_job *job = user;
+    const wo_rect tiles = job->out->tiles;
+    const int32_t columns = wo_rect_width(tiles);
+    const int32_t tx = tiles.x1 + (int32_t)(index % (size_t)columns);
+    const int32_t ty = tiles.y1 + (int32_t)(index / (size_t)columns);
+    const wo_rect whole = {tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT, (tx + 1) * WO_TILE_WIDTH,
+                           (ty + 1) * WO_TILE_HEIGHT};
+    size_t found = 0;
+    wo_highlight *to = job->fill ? job->out->list + job->out->first[index] : NULL;
+    if (job->fill && job->out->first[index + 1] == job->out->first[index])
+        return;
+    share_cache cache = {.count = 0};
+    const double step = job->lens->px_per_dioptre * QUANTUM;
+    for (size_t s = 0; s < job->sheet_count; s++) {
+        wo_sheet *sheet = &job->sheets[s];
+        const wo_rect r = wo_rect_intersect(wo_rect_intersect(whole, sheet->area), job->area);
+        for (int32_t y = r.y1; sheet->any && y < r.y2; y++) {
+            for (int32_t x = r.x1; x < r.x2; x++) {
+                const size_t at =
+                    (size_t)(y - sheet->area.y1) * (size_t)wo_rect_width(sheet->area) +
+                    (size_t)(x - sheet->area.x1);
+                const float v = (float)(rint(sheet->v[at] * step) / step);
+                float *c = sheet->c[at];
+                const float peak = fmaxf(c[0], fmaxf(c[1], c[2]));
+                if (!(peak > WO_HIGHLIGHT_LEVEL) || isnan(v))
+                    continue;
+                const double reach = job->lens->reach(job->lens->self, v, v);
+                if (!(reach >= WO_HIGHLIGHT_RADIUS))
+                    continue;
+                found++;
+                if (!to)
+                    continue;
+                const double part = cached_share(&cache, job->lens, v, (float)reach);
+                const float above = (peak - WO_HIGHLIGHT_LEVEL) / peak;
+                *to = (wo_highlight){x, y, v, (float)reach, {0}};
+                for (int k = 0; k < 3; k++) {
+                    to->c[k] = (float)(part * above) * c[k];
+                    c[k] -= above * c[k];
+                }
+                to++;
+            }
+        }
+    }
+    if (!job->fill)
+        job->counts[index] = found > WO_HIGHLIGHT_CROWD ? 0 : found;
+}
+
+wo_status wo_highlights_take(const wo_context *context, wo_sheet *sheets, size_t count,
+                             wo_rect area, const wo_lens *lens, wo_highlights *highlights,
+                             wo_error *error)
+{
+    *highlights = (wo_highlights){0};
+    if (!lens->connect || wo_rect_empty(area))
+        return WO_OK;
+    highlights->tiles = (wo_rect){
+        floor_div(area.x1, WO_TILE_WIDTH), floor_div(area.y1, WO_TILE_HEIGHT),
+        floor_div(area.x2 - 1, WO_TILE_WIDTH) + 1, floor_div(area.y2 - 1, WO_TILE_HEIGHT) + 1};
+    const size_t tiles = (size_t)wo_rect_width(highlights->tiles) *
+                         (size_t)wo_rect_height(highlights->tiles);
+    take_job job = {sheets, count, area, lens, highlights, NULL, false};
+    wo_status status = WO_ERR_NOMEM;
+    if (!(job.counts = wo_new(context, error, tiles, sizeof *job.counts)))
+        goto done;
+    if (!(highlights->first = wo_new(context, error, tiles + 1, sizeof *highlights->first)))
+        goto done;
+    wo_run(context, take_tile, &job, tiles);
+    for (size_t i = 0; i < tiles; i++)
+        highlights->first[i + 1] = highlights->first[i] + job.counts[i];
+    highlights->count = highlights->first[tiles];
+    if (highlights->count > 0) {
+        highlights->list = wo_new(context, error, highlights->count, sizeof *highlights->list);
+        if (!highlights->list)
+            goto done;
+        job.fill = true;
+        wo_run(context, take_tile, &job, tiles);
+        for (size_t i = 0; i < highlights->count; i++)
+            highlights->reach = fmaxf(highlights->reach, highlights->list[i].reach);
+    }
+    status = WO_OK;
+done:
+    wo_delete(context, job.counts);
+    if (status != WO_OK)
+        wo_highlights_destroy(context, highlights);
+    return status;
+}
+
+void wo_highlights_destroy(const wo_context *context, wo_highlights *highlights)
+{
+    wo_delete(context, highlights->list);
+    wo_delete(context, highlights->first);
+    *highlights = (wo_highlights){0};
+}
+
+/* Light that gets through from the surface at vergence v to pixel (x, y) along the line; the rules of
+   march.h, one ray at a time. */
+static float visible(const wo_stack *stack, int32_t x, int32_t y, const double line[4], float v,
+                     float v_near, float v_same)
+{
+    const bool upright = fabs(line[3]) > fabs(line[2]);
+    const float am = (float)line[upright ? 1 : 0];
+    const float bm = (float)line[upright ? 3 : 2];
+    const float slope = bm != 0 ? (float)line[upright ? 2 : 3] / bm : 0;
+    const float n0 = (float)line[upright ? 0 : 1] - slope * am;
+    const float s_near = am + bm * v_near;
+    const float s_end = am + bm * v;
+    const int dir = s_near >= s_end ? -1 : 1;
+    const int last = (int)lrintf(s_end);
+    float before[WO_SHEETS_MAX];
+    for (int s = 0; s < stack->sheets; s++)
+        before[s] = NAN;
+    float light = 1;
+    for (int i = (int)lrintf(s_near); light > WO_LIGHT_MIN; i += dir) {
+        const int j = (int)lrintf(n0 + slope * (float)i);
+        const ptrdiff_t at = wo_stack_at(stack, x + (upright ? j : i), y + (upright ? i : j));
+        for (int s = 0; s < stack->sheets; s++) {
+            const float q = stack->v[s][at];
+            const float e = (am + bm * q - (float)i) * (float)dir;
+            const float e0 = before[s];
+            before[s] = e;
+            const bool hit =
+                fabsf(e) <= 0.5f || (e < -0.5f && e0 > 0.5f && e0 - e <= 1 + WO_CONNECT_PX);
+            if (hit && q > v_same)
+                light *= 1 - stack->c[s][3][at];
+        }
+        if (i == last)
+            return light;
+    }
+    return 0;
+}
+
+/* True when no surface between the two pixels is nearer than v_same. */
+static bool nothing_between(const wo_stack *stack, int32_t x, int32_t y, const wo_highlight *h,
+                            float v_same)
+{
+    const wo_rect r = {x < h->x ? x : h->x, y < h->y ? y : h->y, (x > h->x ? x : h->x) + 1,
+                       (y > h->y ? y : h->y) + 1};
+    return wo_stack_bounds(stack, r).v_max <= v_same;
+}
+
+int64_t wo_highlights_add(const wo_highlights *highlights, const wo_stack *stack,
+                          const wo_lens *lens, wo_rect tile, float v_near,
+                          float sums[WO_TILE_HEIGHT][WO_TILE_WIDTH][3])
+{
+    int64_t rays = 0;
+    if (highlights->count == 0)
+        return 0;
+    const int32_t reach = (int32_t)ceilf(highlights->reach);
+    const wo_rect grown = wo_rect_grow(tile, reach, reach);
+    const wo_rect tiles = wo_rect_intersect(
+        highlights->tiles,
+        (wo_rect){floor_div(grown.x1, WO_TILE_WIDTH), floor_div(grown.y1, WO_TILE_HEIGHT),
+                  floor_div(grown.x2 - 1, WO_TILE_WIDTH) + 1,
+                  floor_div(grown.y2 - 1, WO_TILE_HEIGHT) + 1});
+    for (int32_t ty = tiles.y1; ty < tiles.y2; ty++) {
+        const size_t row = (size_t)(ty - highlights->tiles.y1) *
+                           (size_t)wo_rect_width(highlights->tiles);
+        const size_t from = highlights->first[row + (size_t)(tiles.x1 - highlights->tiles.x1)];
+        const size_t to = highlights->first[row + (size_t)(tiles.x2 - highlights->tiles.x1)];
+        for (size_t i = from; i < to; i++) {
+            const wo_highlight *h = &highlights->list[i];
+            const int32_t r = (int32_t)ceilf(h->reach);
+            const wo_rect disc = wo_rect_intersect(
+                tile, (wo_rect){h->x - r, h->y - r, h->x + r + 1, h->y + r + 1});
+            const float v_same = h->v + 0.5f / (float)lens->px_per_dioptre;
+            for (int32_t y = disc.y1; y < disc.y2; y++) {
+                for (int32_t x = disc.x1; x < disc.x2; x++) {
+                    double line[4];
+                    const double density =
+                        lens->connect(lens->self, h->x - x, h->y - y, h->v, line);
+                    if (!(density > 0))
+                        continue;
+                    rays++;
+                    float light = (float)density;
+                    if (v_near > v_same && !nothing_between(stack, x, y, h, v_same))
+                        light *= visible(stack, x, y, line, h->v, v_near, v_same);
+                    float *sum = sums[y - tile.y1][x - tile.x1];
+                    for (int k = 0; k < 3; k++)
+                        sum[k] += light * h->c[k];
+                }
+            }
+        }
+    }
+    return rays;
+}

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#ifndef WO_CORE_DEFOCUS_HIGHLIGHTS_H
+#define WO_CORE_DEFOCUS_HIGHLIGHTS_H
+
+#include "defocus/stack.h"
+#include "optics/pencil.h"
+
+/* Highlights: small, very bright pixels. Lens rays find them rarely, which shows as noise and torn
+   edges of their discs. The part of their light above WO_HIGHLIGHT_LEVEL is taken out of the sheets
+   and joined to each output pixel by the one ray that connects them, if nothing is in between: no
+   noise, exact energy. (Sampling the lights in place of the lens, as path tracers do.) */
+#define WO_HIGHLIGHT_LEVEL  4.0f /* scene-linear; 1 is diffuse white */
+#define WO_HIGHLIGHT_RADIUS 2.0  /* px; smaller blur is left to the rays */
+#define WO_HIGHLIGHT_CROWD  256  /* brighter pixels in a tile than this are an area, not points */
+
+typedef struct wo_highlight {
+    int32_t x, y;
+    float v;
+    float reach; /* px */
+    float c[3];  /* light above the level, times the share that one connecting ray carries relative
+                    to lens.connect's density: the discrete sum over all pixels is exact */
+} wo_highlight;
+
+typedef struct wo_highlights {
+    wo_highlight *list; /* sorted by tile row */
+    size_t count;
+    float reach;   /* largest */
+    wo_rect tiles; /* in units of tiles, absolute */
+    size_t *first; /* [tiles + 1] */
+} wo_highlights;
+
+/* Finds the highlights of the sheets within area (both are cut in the sheets) whose discs can reach
+   window. Does nothing for lenses that cannot connect. */
+WO_NODISCARD wo_status wo_highlights_take(const wo_context *context, wo_sheet *sheets, size_t count,
+                                          wo_rect area, const wo_lens *lens,
+                                          wo_highlights *highlights, wo_error *error);
+void wo_highlights_destroy(const wo_context *context, wo_highlights *highlights);
+
+/* Adds their light to the pixels of one tile: sums[y][x][rgb]. v_near: nearest surface of the tile's
+   footprint. Returns the number of connecting rays. */
+int64_t wo_highlights_add(const wo_highlights *highlights, const wo_stack *stack,
+                          const wo_lens *lens, wo_rect tile, float v_near,
+                          float sums[WO_TILE_HEIGHT][WO_TILE_WIDTH][3]);
+
+#endif

@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "defocus/lens_rays.h"
+
+#include <math.h>
+#include <string.h>
+
+static int32_t floor_div(int32_t x, int32_t d)
+{
+    return x >= 0 ? x / d : -((d - 1 - x) / d);
+}
+
+wo_rect wo_tiles_of(wo_rect r)
+{
+    if (wo_rect_empty(r))
+        return (wo_rect){0};
+    return (wo_rect){floor_div(r.x1, WO_TILE_WIDTH), floor_div(r.y1, WO_TILE_HEIGHT),
+                     floor_div(r.x2 - 1, WO_TILE_WIDTH) + 1,
+                     floor_div(r.y2 - 1, WO_TILE_HEIGHT) + 1};
+}
+
+static wo_rect tile_rect(int32_t tx, int32_t ty)
+{
+    return (wo_rect){tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT, (tx + 1) * WO_TILE_WIDTH,
+                     (ty + 1) * WO_TILE_HEIGHT};
+}
+
+static bool one_bit(uint16_t x)
+{
+    return x != 0 && (x & (x - 1)) == 0;
+}
+
+/* Bounds narrow the reach, the reach narrows the bounds (Lee et al. 2010, "Bounding the Footprint":
+   three rounds are enough). */
+static wo_ray_tile classify(const wo_lens_rays *rays, int32_t tx, int32_t ty, double reach)
+{
+    const wo_lens *lens = rays->lens;
+    const wo_rect rect = tile_rect(tx, ty);
+    wo_cell bounds = {0};
+    for (int round = 0; round < 3; round++) {
+        const int32_t grow = (int32_t)ceil(reach) + WO_RAYS_MARGIN;
+        bounds = wo_stack_bounds(rays->stack, wo_rect_grow(rect, grow, grow));
+        if (bounds.some == 0)
+            return (wo_ray_tile){.class = WO_TILE_EMPTY};
+        reach = fmin(reach, lens->reach(lens->self, bounds.v_min, bounds.v_max));
+    }
+    wo_ray_tile tile = {.class = WO_TILE_MARCH,
+                        .sheets = bounds.some,
+                        .v_near = bounds.v_max,
+                        .v_far = bounds.v_min,
+                        .reach = (float)reach};
+    const double spread = lens->px_per_dioptre * ((double)bounds.v_max - bounds.v_min);
+    tile.smooth = reach - spread < WO_SMOOTH_PX;
+    if (reach < WO_SHARP_PX)
+        tile.class = WO_TILE_SHARP;
+    else if (one_bit(bounds.some) && bounds.some == (bounds.some & bounds.full) &&
+             spread < WO_SINGLE_PX)
+        tile.class = WO_TILE_SINGLE;
+    return tile;
+}
+
+typedef struct classify_job {
+    wo_lens_rays *rays;
+    double reach;
+} classify_job;
+
+static void classify_row(void *user, size_t index, unsigned worker)
+{
+    (void)worker;
+    const classify_job *job = user;
+    const wo_rect tiles = job->rays->tiles;
+    const size_t columns = (size_t)wo_rect_width(tiles);
+    for (size_t i = 0; i < columns; i++)
+        job->rays->tile[index * columns + i] = classify(
+            job->rays, tiles.x1 + (int32_t)i, tiles.y1 + (int32_t)index, job->reach);
+}
+
+wo_status wo_lens_rays_create(const wo_context *context, const wo_stack *stack,
+                              const wo_lens *lens, const wo_highlights *highlights, wo_rect window,
+                              double max_reach, wo_lens_rays *rays, wo_error *error)
+{
+    *rays = (wo_lens_rays){.stack = stack,
+                           .lens = lens,
+                           .highlights = highlights,
+                           .kernels = wo_march_choose(wo_cpu_detect(context->cpu)),
+                           .tiles = wo_tiles_of(window)};
+    const size_t rows = (size_t)wo_rect_height(rays->tiles);
+    rays->tile = wo_new(context, error, (size_t)wo_rect_width(rays->tiles) * rows,
+                        sizeof *rays->tile);
+    if (!rays->tile)
+        return WO_ERR_NOMEM;
+    classify_job job = {rays, max_reach};
+    wo_run(context, classify_row, &job, rows);
+    return WO_OK;
+}
+
+void wo_lens_rays_destroy(const wo_context *context, wo_lens_rays *rays)
+{
+    wo_delete(context, rays->tile);
+    *rays = (wo_lens_rays){0};
+}
+
+const wo_ray_tile *wo_lens_rays_at(const wo_lens_rays *rays, int32_t tx, int32_t ty)
+{
+    return &rays->tile[(size_t)(ty - rays->tiles.y1) * (size_t)wo_rect_width(rays->tiles) +
+                       (size_t)(tx - rays->tiles.x1)];
+}
+
+static wo_march_view view_of(const wo_lens_rays *rays, const wo_ray_tile *tile)
+{
+    const wo_stack *stack = rays->stack;
+    wo_march_view view = {.run = stack->run,
+                          .row = stack->row,
+                          .v_near = tile->v_near,
+                          .v_far = tile->v_far,
+                          .v_connect = (float)(WO_CONNECT_PX / rays->lens->px_per_dioptre),
+                          .smooth = tile->smooth};
+    for (int s = 0; s < stack->sheets; s++) {
+        if (!(tile->sheets & 1u << s))
+            continue;
+        view.v[view.sheets] = stack->v[s];
+        memcpy(view.c[view.sheets], stack->c[s], sizeof view.c[0]);
+        view.guessed[view.sheets++] = stack->guessed[s];
+    }
+    return view;
+}
+
+/* Colour straight through the pixel, for a pixel all of whose rays were lost. */
+static void straight_through(const wo_march_view *view, ptrdiff_t at, float c[4])
+{
+    float best = -INFINITY;
+    for (int s = 0; s < view->sheets; s++) {
+        if (!(view->v[s][at] > best))
+            continue;
+        best = view->v[s][at];
+        for (int k = 0; k < 4; k++)
+            c[k] = view->c[s][k][at];
+    }
+}
+
+static void store(const wo_stack *stack, const wo_march_view *view, const wo_march_sums *sums,
+                  wo_rect rect, int32_t row, int run_index, wo_tile_pixels *pixels)
+{
+    for (int i = 0; i < WO_LANES; i++) {
+        const int x = run_index + WO_PHASES * i;
+        float *c = pixels->c[row][x];
+        const float weight = sums->weight[i];
+        if (weight > 0) {
+            for (int k = 0; k < 4; k++)
+                c[k] = sums->c[k][i] / weight;
+            c[3] = fminf(c[3], 1);
+        } else {
+            straight_through(view, wo_stack_at(stack, rect.x1 + x, rect.y1 + row), c);
+        }
+        pixels->guessed[row][x] = sums->guessed[i];
+    }
+}
+
+bool wo_lens_rays_tile(const wo_lens_rays *rays, const wo_context *context, int32_t tx, int32_t ty,
+                       wo_tile_pixels *pixels, wo_report *report)
+{
+    static const float zero[1] = {0};
+    const wo_ray_tile *tile = wo_lens_rays_at(rays, tx, ty);
+    const wo_rect rect = tile_rect(tx, ty);
+    const wo_stack *stack = rays->stack;
+    memset(pixels, 0, sizeof *pixels);
+    report->tiles[tile->class]++;
+    if (tile->class == WO_TILE_EMPTY)
+        return true;
+    const wo_march_view view = view_of(rays, tile);
+    wo_march_function *const kernel =
+        tile->class == WO_TILE_SINGLE ? rays->kernels->single : rays->kernels->march;
+    for (int32_t row = 0; row < WO_TILE_HEIGHT; row++) {
+        const int32_t y = rect.y1 + row;
+        if (wo_aborted(context))
+            return false;
+        for (int run_index = 0; run_index < WO_PHASES; run_index++) {
+            wo_pencil pencil = {1, zero, zero, zero, zero, NULL};
+            if (tile->class != WO_TILE_SHARP) {
+                const uint32_t where = (uint32_t)tx * 0x9e3779b1u + (uint32_t)y * 0x85ebca77u;
+                const uint32_t set = wo_hash(where) + 0x3c6ef372u * (uint32_t)run_index;
+                rays->lens->pencil(rays->lens->self, rect.x1 + 0.5 * WO_TILE_WIDTH, y + 0.5,
+                                   wo_hash(set) % rays->lens->sets, &pencil);
+            }
+            wo_march_sums sums;
+            kernel(&view, rect.x1 - stack->area.x1, y - stack->area.y1, run_index, &pencil, &sums);
+            store(stack, &view, &sums, rect, row, run_index, pixels);
+            report->steps += sums.steps;
+            report->rays += (int64_t)pencil.count * WO_LANES;
+            for (int i = 0; i < WO_LANES; i++)
+                pixels->guessed[row][run_index + WO_PHASES * i] /= (float)pencil.count;
+        }
+    }
+    if (rays->highlights && rays->highlights->count > 0) {
+        float light[WO_TILE_HEIGHT][WO_TILE_WIDTH][3] = {0};
+        report->rays += wo_highlights_add(rays->highlights, stack, rays->lens, rect, tile->v_near,
+                                          light);
+        for (int32_t y = 0; y < WO_TILE_HEIGHT; y++)
+            for (int32_t x = 0; x < WO_TILE_WIDTH; x++)
+                for (int k = 0; k < 3; k++)
+                    pixels->c[y][x][k] += light[y][x][k];
+    }
+    return true;
+}

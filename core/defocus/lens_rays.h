@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#ifndef WO_CORE_DEFOCUS_LENS_RAYS_H
+#define WO_CORE_DEFOCUS_LENS_RAYS_H
+
+#include "defocus/highlights.h"
+#include "defocus/march.h"
+#include "wideopen/report.h"
+
+/* The renderer of lens rays: a stack, a lens, a class for every tile; const once made. */
+typedef struct wo_ray_tile {
+    wo_tile_class class;
+    bool smooth;
+    uint16_t sheets; /* bit s: sheet s has something in the footprint */
+    float v_near, v_far;
+    float reach; /* px */
+} wo_ray_tile;
+
+typedef struct wo_lens_rays {
+    const wo_stack *stack;
+    const wo_lens *lens;
+    const wo_highlights *highlights;
+    const wo_march_kernels *kernels;
+    wo_rect tiles; /* in units of tiles, absolute */
+    wo_ray_tile *tile;
+} wo_lens_rays;
+
+/* Below this radius a picture is sharp; below this difference of radius it has one depth; from this
+   radius on colours need no interpolation. All px. */
+#define WO_SHARP_PX  0.05
+#define WO_SINGLE_PX 1.0
+#define WO_SMOOTH_PX 4.0
+
+/* px that a ray looks beyond its reach: interpolation and rounding. */
+#define WO_RAYS_MARGIN 3
+
+/* Tiles of the absolute grid that touch r, in units of tiles. */
+wo_rect wo_tiles_of(wo_rect r);
+
+/* Classes for the tiles that touch window. max_reach: no ray goes farther, px; the stack must hold
+   those tiles grown by max_reach + WO_RAYS_MARGIN. */
+WO_NODISCARD wo_status wo_lens_rays_create(const wo_context *context, const wo_stack *stack,
+                                           const wo_lens *lens, const wo_highlights *highlights,
+                                           wo_rect window, double max_reach, wo_lens_rays *rays,
+                                           wo_error *error);
+void wo_lens_rays_destroy(const wo_context *context, wo_lens_rays *rays);
+
+/* One tile, whole: premultiplied colour, and the fraction of guessed light of each pixel. The report's
+   rays, steps and tiles are added to. Any thread. */
+typedef struct wo_tile_pixels {
+    float c[WO_TILE_HEIGHT][WO_TILE_WIDTH][4];
+    float guessed[WO_TILE_HEIGHT][WO_TILE_WIDTH];
+} wo_tile_pixels;
+
+/* (tx, ty) in units of tiles. Returns false when aborted. */
+bool wo_lens_rays_tile(const wo_lens_rays *rays, const wo_context *context, int32_t tx, int32_t ty,
+                       wo_tile_pixels *pixels, wo_report *report);
+
+/* Class and bounds of a tile. */
+const wo_ray_tile *wo_lens_rays_at(const wo_lens_rays *rays, int32_t tx, int32_t ty);
+
+#endif

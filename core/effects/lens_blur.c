@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "effects/lens_blur.h"
+
+#include "defocus/lens_rays.h"
+#include "effects/lens_blur_plan.h"
+
+#include <math.h>
+
+/* Hidden surfaces are continued so many times as far as the largest radius, rounded up to a power of
+   two; beyond 2^FILL_LEVELS_MAX px they are unknown. */
+enum { FILL_LEVELS_MAX = 9 };
+
+/* px that loading, splitting and seeding look beyond a pixel, one after the other. */
+#define INPUT_MARGIN (WO_SHEET_LOAD_MARGIN + WO_SHEET_SPLIT_MARGIN + 1)
+
+wo_status wo_lens_blur_prepare(const wo_lens_blur_params *params, const wo_geometry *geometry,
+                               wo_lens_blur_setup *setup, wo_error *error)
+{
+    *setup = (wo_lens_blur_setup){0};
+    WO_TRY(wo_params_validate(wo_lens_blur_table, WO_LENS_BLUR_PARAMS, params, error));
+    const double width = wo_rect_width(geometry->format);
+    WO_TRY(wo_thin_lens_make(params->focal_length, params->sensor_width, params->f_stop,
+                             params->focus_distance, params->breathing != 0, width, &setup->lens,
+                             error));
+    setup->aperture = (wo_aperture){params->blades < 3 ? 0 : params->blades, params->curvature,
+                                    params->rotation, params->aspect};
+    setup->reading = (wo_depth_reading){(wo_depth_mode)params->depth_mode, params->depth_scale,
+                                        params->depth_near, params->depth_far};
+    for (int i = 0; i < WO_LENS_BLUR_LAYERS; i++) {
+        setup->layer_used[i] = i < params->layers && (i == 0 || geometry->connected[2 * i]);
+        setup->layers += setup->layer_used[i];
+        setup->has_depth |= setup->layer_used[i] && params->use_depth &&
+                            geometry->connected[2 * i + 1];
+    }
+    setup->mask_used = params->use_mask && geometry->connected[WO_CLIP_MASK];
+
+    double radius = params->max_radius * geometry->render_scale;
+    const double at_infinity = setup->lens.k * fabs(setup->lens.vf);
+    if (!setup->has_depth)
+        radius = fmin(radius, at_infinity);
+    else if (params->depth_mode == WO_DEPTH_NORMALISED)
+        radius = fmin(radius, fmax(at_infinity,
+                                   fmax(wo_thin_lens_coc(&setup->lens, 1 / params->depth_near),
+                                        wo_thin_lens_coc(&setup->lens, 1 / params->depth_far))));
+    setup->radius = radius;
+    setup->v_max = radius / setup->lens.k;
+    setup->v_min = -setup->v_max;
+    if (setup->has_depth && radius >= WO_SHARP_PX) {
+        setup->fill_levels = 1;
+        while (setup->fill_levels < FILL_LEVELS_MAX && ldexp(1, setup->fill_levels) < radius)
+            setup->fill_levels++;
+    }
+    return WO_OK;
+}
+
+static int32_t floor_to(int32_t x, int32_t grid)
+{
+    const int32_t r = x % grid;
+    return x - (r < 0 ? r + grid : r);
+}
+
+static wo_rect on_grid(wo_rect r, int32_t grid_x, int32_t grid_y)
+{
+    return (wo_rect){floor_to(r.x1, grid_x), floor_to(r.y1, grid_y),
+                     floor_to(r.x2 + grid_x - 1, grid_x), floor_to(r.y2 + grid_y - 1, grid_y)};
+}
+
+wo_lens_blur_areas wo_lens_blur_plan_areas(const wo_lens_blur_setup *setup,
+                                           const wo_geometry *geometry, wo_rect window)
+{
+    wo_lens_blur_areas areas;
+    const double reach = setup->radius * fmax(1, geometry->pixel_stretch);
+    const int32_t margin = (int32_t)ceil(reach) + WO_RAYS_MARGIN;
+    const wo_rect tiles = on_grid(window, WO_TILE_WIDTH, WO_TILE_HEIGHT);
+    areas.stack = wo_stack_grid(wo_rect_grow(tiles, margin, margin));
+    /* Highlights are told from areas of light by whole tiles. */
+    areas.layers = on_grid(areas.stack, WO_TILE_WIDTH, WO_TILE_HEIGHT);
+    if (setup->fill_levels > 0) {
+        const int32_t fill = wo_sheet_fill_margin(setup->fill_levels);
+        const int32_t grid = (int32_t)1 << setup->fill_levels;
+        areas.layers = on_grid(wo_rect_grow(areas.layers, fill, fill), grid, grid);
+        areas.layers = wo_rect_grow(areas.layers, INPUT_MARGIN, INPUT_MARGIN);
+    }
+    return areas;
+}
+
+static wo_status region(const void *params, const wo_geometry *geometry, wo_rect window,
+                        size_t clip, wo_rect *needed, wo_error *error)
+{
+    wo_lens_blur_setup setup;
+    *needed = (wo_rect){0};
+    WO_TRY(wo_lens_blur_prepare(params, geometry, &setup, error));
+    if (clip == WO_CLIP_MASK) {
+        if (setup.mask_used)
+            *needed = window;
+        return WO_OK;
+    }
+    if (clip < WO_CLIP_MASK && setup.layer_used[clip / 2])
+        *needed = wo_lens_blur_plan_areas(&setup, geometry, window).layers;
+    return WO_OK;
+}
+
+static int identity(const void *params, const wo_geometry *geometry)
+{
+    const wo_lens_blur_params *p = params;
+    wo_lens_blur_setup setup;
+    if (wo_lens_blur_prepare(p, geometry, &setup, NULL) != WO_OK)
+        return -1;
+    return p->output == WO_OUTPUT_IMAGE && setup.layers == 1 && setup.radius < WO_SHARP_PX
+               ? WO_CLIP_SOURCE
+               : -1;
+}
+
+const wo_effect wo_lens_blur = {
+    .name = "LensBlur",
+    .label = "Lens Blur",
+    .help = "Depth of field of a real lens for a picture that was rendered or shot through a "
+            "pinhole: every pixel is a bundle of lens rays through the picture and its depth. "
+            "Layers hold what the picture hides; what no layer holds is invented and reported.",
+    .params_size = sizeof(wo_lens_blur_params),
+    .params = wo_lens_blur_table,
+    .param_count = WO_LENS_BLUR_PARAMS,
+    .groups = wo_lens_blur_groups,
+    .group_count = WO_LENS_BLUR_GROUPS,
+    .clips = wo_lens_blur_clips,
+    .clip_count = WO_LENS_BLUR_CLIPS,
+    .region = region,
+    .identity = identity,
+    .plan_create = wo_lens_blur_plan_create,
+    .plan_print = wo_lens_blur_plan_print,
+    .render = wo_lens_blur_render,
+    .plan_destroy = wo_lens_blur_plan_destroy,
+};

@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#ifndef WO_CORE_EFFECTS_LENS_BLUR_H
+#define WO_CORE_EFFECTS_LENS_BLUR_H
+
+#include "wideopen/aperture.h"
+#include "wideopen/effect.h"
+#include "wideopen/optics.h"
+
+typedef enum wo_lens_blur_output {
+    WO_OUTPUT_IMAGE,
+    WO_OUTPUT_COC,
+    WO_OUTPUT_DEPTH,
+    WO_OUTPUT_RAYS
+} wo_lens_blur_output;
+
+/* What the user wants; the rows of the table in lens_blur_params.c describe each field. */
+typedef struct wo_lens_blur_params {
+    double focal_length;
+    double sensor_width;
+    double f_stop;
+    double focus_distance;
+    int32_t breathing;
+    int32_t use_depth;
+    int32_t depth_mode;
+    double depth_scale;
+    double depth_near;
+    double depth_far;
+    int32_t depth_channel;
+    int32_t layers;
+    int32_t use_mask;
+    int32_t blades;
+    double curvature;
+    double rotation;
+    double aspect;
+    int32_t samples;
+    int32_t seed;
+    double max_radius;
+    int32_t output;
+} wo_lens_blur_params;
+
+enum { WO_LENS_BLUR_PARAMS = 21, WO_LENS_BLUR_GROUPS = 5 };
+extern const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS];
+extern const wo_param_group wo_lens_blur_groups[WO_LENS_BLUR_GROUPS];
+
+/* Clips by index. */
+#define WO_LENS_BLUR_LAYERS 4
+enum {
+    WO_CLIP_SOURCE = 0, /* layer i: colour 2 i, depth 2 i + 1 */
+    WO_CLIP_DEPTH = 1,
+    WO_CLIP_MASK = 2 * WO_LENS_BLUR_LAYERS,
+    WO_LENS_BLUR_CLIPS
+};
+extern const wo_clip wo_lens_blur_clips[WO_LENS_BLUR_CLIPS];
+
+/* Everything that follows from parameters and geometry alone. */
+typedef struct wo_lens_blur_setup {
+    wo_thin_lens lens;
+    wo_aperture aperture;
+    wo_depth_reading reading;
+    bool has_depth;
+    int layers;      /* that take part */
+    bool layer_used[WO_LENS_BLUR_LAYERS];
+    bool mask_used;
+    double radius;   /* largest circle of confusion that is drawn, px */
+    double v_min, v_max;
+    int fill_levels; /* of the continuation of hidden surfaces; 0 = no depth, nothing to continue */
+} wo_lens_blur_setup;
+
+WO_NODISCARD wo_status wo_lens_blur_prepare(const wo_lens_blur_params *params,
+                                            const wo_geometry *geometry, wo_lens_blur_setup *setup,
+                                            wo_error *error);
+
+/* Areas for a window: what the stack holds, and what is read of the layers. */
+typedef struct wo_lens_blur_areas {
+    wo_rect stack;
+    wo_rect layers; /* before cutting to the extent */
+} wo_lens_blur_areas;
+
+wo_lens_blur_areas wo_lens_blur_plan_areas(const wo_lens_blur_setup *setup,
+                                           const wo_geometry *geometry, wo_rect window);
+
+extern const wo_effect wo_lens_blur;
+
+#endif

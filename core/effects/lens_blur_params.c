@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "effects/lens_blur.h"
+
+#define FIELD(name) offsetof(wo_lens_blur_params, name)
+
+const wo_param_group wo_lens_blur_groups[WO_LENS_BLUR_GROUPS] = {
+    {"camera", "Camera", true},     {"depth", "Depth and layers", true},
+    {"aperture", "Aperture", true}, {"quality", "Quality", true},
+    {"view", "Output", true},
+};
+
+#define DEPTH_KEY(name, key, label)   key,
+#define DEPTH_LABEL(name, key, label) label,
+static const char *const depth_modes[] = {WO_DEPTH_MODE_LIST(DEPTH_KEY) NULL};
+static const char *const depth_mode_labels[] = {WO_DEPTH_MODE_LIST(DEPTH_LABEL) NULL};
+static const char *const channels[] = {"red", "green", "blue", "alpha", NULL};
+static const char *const channel_labels[] = {"Red or single channel", "Green", "Blue", "Alpha",
+                                             NULL};
+static const char *const outputs[] = {"image", "coc", "depth", "rays", NULL};
+static const char *const output_labels[] = {"Image", "Circle of confusion", "Depth", "Rays", NULL};
+
+const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
+    {.key = "focalLength", .label = "Focal length", .unit = "mm", .group = "camera",
+     .help = "Focal length of the lens. With the sensor width it gives the field of view that the "
+             "picture was rendered with.",
+     .type = WO_PARAM_DOUBLE, .offset = FIELD(focal_length), .initial = {50}, .min = 0.1,
+     .max = 1e5, .ui_min = 8, .ui_max = 300, .animates = true},
+    {.key = "sensorWidth", .label = "Sensor width", .unit = "mm", .group = "camera",
+     .help = "Width of the film back: what the whole width of the format shows.",
+     .type = WO_PARAM_DOUBLE, .offset = FIELD(sensor_width), .initial = {36}, .min = 0.1,
+     .max = 1e5, .ui_min = 5, .ui_max = 70, .animates = true},
+    {.key = "fStop", .label = "f-number", .unit = "", .group = "camera",
+     .help = "Focal length over the diameter of the entrance pupil. Smaller numbers blur more.",
+     .type = WO_PARAM_DOUBLE, .offset = FIELD(f_stop), .initial = {2.8}, .min = 0.01, .max = 1e6,
+     .ui_min = 0.7, .ui_max = 22, .animates = true},
+    {.key = "focusDistance", .label = "Focus distance", .unit = "m", .group = "camera",
+     .help = "Planar distance of the plane in focus. 0 is infinity; negative values focus beyond "
+             "infinity.",
+     .type = WO_PARAM_DOUBLE, .offset = FIELD(focus_distance), .initial = {2.5}, .min = -1e9,
+     .max = 1e9, .ui_min = 0, .ui_max = 20, .animates = true},
+    {.key = "breathing", .label = "Lens breathing", .unit = "", .group = "camera",
+     .help = "Size the blur for a lens that moves to focus: its image distance in place of the "
+             "focal length. Off for pictures of CG cameras, whose field of view is fixed.",
+     .type = WO_PARAM_BOOL, .offset = FIELD(breathing), .initial = {0}, .min = 0, .max = 1,
+     .ui_min = 0, .ui_max = 1},
+    {.key = "useDepth", .label = "Use depth", .unit = "", .group = "depth",
+     .help = "Off: the Depth clips are ignored and everything is infinitely far. For hosts that "
+             "deliver black for clips that are not connected.",
+     .type = WO_PARAM_BOOL, .offset = FIELD(use_depth), .initial = {1}, .min = 0, .max = 1,
+     .ui_min = 0, .ui_max = 1},
+    {.key = "depthMode", .label = "Depth is", .unit = "", .group = "depth",
+     .help = "What the numbers of the Depth clips mean. Zero, negative and non-finite distances "
+             "are infinitely far.",
+     .type = WO_PARAM_CHOICE, .offset = FIELD(depth_mode), .initial = {WO_DEPTH_DISTANCE},
+     .min = 0, .max = WO_DEPTH_MODE_COUNT - 1, .ui_min = 0, .ui_max = WO_DEPTH_MODE_COUNT - 1,
+     .choices = depth_modes, .choice_labels = depth_mode_labels},
+    {.key = "depthScale", .label = "Units per metre", .unit = "1/m", .group = "depth",
+     .help = "How many scene units make a metre: 1 for metres, 100 for centimetres.",
+     .type = WO_PARAM_DOUBLE, .offset = FIELD(depth_scale), .initial = {1}, .min = 1e-9,
+     .max = 1e9, .ui_min = 0.01, .ui_max = 1000, .animates = true},
+    {.key = "near", .label = "Near", .unit = "m", .group = "depth",
+     .help = "Distance of depth 0 when depth is normalised.",
+     .type = WO_PARAM_DOUBLE, .offset = FIELD(depth_near), .initial = {0.1}, .min = 1e-6,
+     .max = 1e9, .ui_min = 0.01, .ui_max = 10, .animates = true},
+    {.key = "far", .label = "Far", .unit = "m", .group = "depth",
+     .help = "Distance of depth 1 when depth is normalised. May be nearer than Near: white is "
+             "near.",
+     .type = WO_PARAM_DOUBLE, .offset = FIELD(depth_far), .initial = {100}, .min = 1e-6,
+     .max = 1e9, .ui_min = 1, .ui_max = 1000, .animates = true},
+    {.key = "depthChannel", .label = "Depth channel", .unit = "", .group = "depth",
+     .help = "Channel of the Depth clips that holds the depth. Clips with fewer channels give "
+             "their last one.",
+     .type = WO_PARAM_CHOICE, .offset = FIELD(depth_channel), .initial = {0}, .min = 0, .max = 3,
+     .ui_min = 0, .ui_max = 3, .choices = channels, .choice_labels = channel_labels},
+    {.key = "layers", .label = "Layers", .unit = "", .group = "depth",
+     .help = "How many layers to use at most, Source included. Layers that are not connected do "
+             "not count.",
+     .type = WO_PARAM_INT, .offset = FIELD(layers), .initial = {WO_LENS_BLUR_LAYERS}, .min = 1,
+     .max = WO_LENS_BLUR_LAYERS, .ui_min = 1, .ui_max = WO_LENS_BLUR_LAYERS},
+    {.key = "useMask", .label = "Use mask", .unit = "", .group = "depth",
+     .help = "Mix the blurred picture with the source by the Mask clip, where there is one: 1 is "
+             "blurred, 0 is the source.",
+     .type = WO_PARAM_BOOL, .offset = FIELD(use_mask), .initial = {1}, .min = 0, .max = 1,
+     .ui_min = 0, .ui_max = 1},
+    {.key = "blades", .label = "Blades", .unit = "", .group = "aperture",
+     .help = "Number of aperture blades, 3 to 16. Fewer than 3: a round aperture.",
+     .type = WO_PARAM_INT, .offset = FIELD(blades), .initial = {0}, .min = 0, .max = WO_BLADES_MAX,
+     .ui_min = 0, .ui_max = WO_BLADES_MAX, .animates = true},
+    {.key = "curvature", .label = "Blade curvature", .unit = "", .group = "aperture",
+     .help = "0 is straight, 1 makes the aperture round, negative values bend the blades inwards.",
+     .type = WO_PARAM_DOUBLE, .offset = FIELD(curvature), .initial = {0}, .min = -1, .max = 1,
+     .ui_min = -1, .ui_max = 1, .animates = true},
+    {.key = "rotation", .label = "Rotation", .unit = "deg", .group = "aperture",
+     .help = "Angle of an aperture vertex from the right, counter-clockwise.",
+     .type = WO_PARAM_DOUBLE, .offset = FIELD(rotation), .initial = {0}, .min = -1e6, .max = 1e6,
+     .ui_min = -180, .ui_max = 180, .animates = true},
+    {.key = "aspect", .label = "Aspect", .unit = "", .group = "aperture",
+     .help = "Width over height of the aperture: 0.5 gives the upright ovals of an anamorphic "
+             "lens. The longer side keeps the size of the f-number.",
+     .type = WO_PARAM_DOUBLE, .offset = FIELD(aspect), .initial = {1}, .min = 0.1, .max = 10,
+     .ui_min = 0.25, .ui_max = 4, .animates = true},
+    {.key = "samples", .label = "Samples", .unit = "", .group = "quality",
+     .help = "Lens rays for each pixel. Four times as many halve the noise, or better.",
+     .type = WO_PARAM_INT, .offset = FIELD(samples), .initial = {64}, .min = 1, .max = 16384,
+     .ui_min = 8, .ui_max = 1024},
+    {.key = "seed", .label = "Seed", .unit = "", .group = "quality",
+     .help = "Chooses another pattern of lens rays; animate it to let the noise change.",
+     .type = WO_PARAM_INT, .offset = FIELD(seed), .initial = {0}, .min = 0, .max = 1e9,
+     .ui_min = 0, .ui_max = 1000, .animates = true},
+    {.key = "maxRadius", .label = "Largest radius", .unit = "px", .group = "quality",
+     .help = "Blur is cut to circles of confusion of this radius at full resolution. It bounds "
+             "what a tile must read around itself.",
+     .type = WO_PARAM_DOUBLE, .offset = FIELD(max_radius), .initial = {100}, .min = 0, .max = 2048,
+     .ui_min = 0, .ui_max = 300, .animates = true},
+    {.key = "output", .label = "Output", .unit = "", .group = "view",
+     .help = "The image, or a view of the plan: the radius of the circle of confusion in px "
+             "(positive in front of the focus, negative behind), the depth in metres, or the lens "
+             "rays of each pixel.",
+     .type = WO_PARAM_CHOICE, .offset = FIELD(output), .initial = {WO_OUTPUT_IMAGE}, .min = 0,
+     .max = 3, .ui_min = 0, .ui_max = 3, .choices = outputs, .choice_labels = output_labels},
+};
+
+#define COLOUR(clip_name, clip_label, clip_help, is_optional)                                      \
+    {.name = clip_name, .label = clip_label, .help = clip_help, .optional = is_optional,           \
+     .components = WO_COMPONENT_RGBA | WO_COMPONENT_RGB}
+#define DEPTH(clip_name, clip_label, clip_help)                                                    \
+    {.name = clip_name, .label = clip_label, .help = clip_help, .optional = true, .data = true,    \
+     .components = WO_COMPONENT_ALPHA | WO_COMPONENT_RGB | WO_COMPONENT_RGBA}
+
+const wo_clip wo_lens_blur_clips[WO_LENS_BLUR_CLIPS] = {
+    COLOUR("Source", "Source", "The picture, seen through a pinhole.", false),
+    DEPTH("Depth", "Depth", "Depth of Source at pixel centres, not antialiased."),
+    COLOUR("Layer2", "Layer 2", "What Source hides: a second depth peel, or another object group.",
+           true),
+    DEPTH("Depth2", "Depth 2", "Depth of Layer 2."),
+    COLOUR("Layer3", "Layer 3", "A third layer.", true),
+    DEPTH("Depth3", "Depth 3", "Depth of Layer 3."),
+    COLOUR("Layer4", "Layer 4", "A fourth layer.", true),
+    DEPTH("Depth4", "Depth 4", "Depth of Layer 4."),
+    {.name = "Mask", .label = "Mask", .help = "Where to blur: 1 blurred, 0 source.",
+     .optional = true, .mask = true,
+     .components = WO_COMPONENT_ALPHA | WO_COMPONENT_RGB | WO_COMPONENT_RGBA},
+};

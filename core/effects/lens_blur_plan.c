@@ -1,0 +1,253 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "effects/lens_blur_plan.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+double wo_seconds(void)
+{
+    struct timespec now;
+    return timespec_get(&now, TIME_UTC) ? (double)now.tv_sec + 1e-9 * (double)now.tv_nsec : 0;
+}
+
+/* Layers, then split edges, then what is hidden. */
+enum { EDGES = WO_LENS_BLUR_LAYERS, HIDDEN, SHEETS };
+
+static void destroy_sheets(const wo_context *context, wo_sheet sheets[SHEETS])
+{
+    for (int i = 0; i < SHEETS; i++)
+        wo_sheet_destroy(context, &sheets[i]);
+}
+
+static wo_status empty_sheet(const wo_context *context, wo_rect area, wo_sheet *sheet,
+                             wo_error *error)
+{
+    WO_TRY(wo_sheet_create(context, area, sheet, error));
+    const size_t n = (size_t)wo_rect_width(area) * (size_t)wo_rect_height(area);
+    for (size_t i = 0; i < n; i++)
+        sheet->v[i] = NAN;
+    return WO_OK;
+}
+
+static wo_status load_layers(const wo_plan *plan, const wo_plan_args *args, wo_rect area,
+                             wo_sheet sheets[SHEETS], wo_sheet_counts *counts, wo_error *error)
+{
+    const wo_lens_blur_setup *setup = &plan->setup;
+    for (int i = 0; i < WO_LENS_BLUR_LAYERS; i++) {
+        const wo_image *colour = &args->inputs[2 * i];
+        if (!setup->layer_used[i] || !colour->data)
+            continue;
+        WO_TRY(wo_sheet_create(&plan->context, area, &sheets[i], error));
+        const wo_sheet_source source = {
+            .colour = colour,
+            .depth = plan->params.use_depth ? &args->inputs[2 * i + 1] : NULL,
+            .depth_channel = plan->params.depth_channel,
+            .alpha = args->alpha[2 * i],
+            .reading = setup->reading,
+            .extent = plan->geometry.extent,
+            .format = plan->geometry.format,
+            .focal_px = setup->lens.focal_px,
+            .stretch = plan->geometry.pixel_stretch,
+            .v_origin = setup->lens.vf,
+            .v_min = setup->v_min,
+            .v_max = setup->v_max,
+        };
+        WO_TRY(wo_sheet_load(&plan->context, &source, plan->window, &sheets[i], counts, error));
+    }
+    return WO_OK;
+}
+
+static void note_layers(wo_plan *plan, const wo_sheet sheets[SHEETS], int64_t split)
+{
+    wo_report *report = &plan->report;
+    for (int i = 0; i < WO_LENS_BLUR_LAYERS; i++)
+        if (plan->setup.layer_used[i] && !sheets[i].any)
+            wo_report_leave_out(report, "layers", "empty or not connected", 1, "layers");
+    if (!plan->setup.has_depth)
+        wo_report_leave_out(report, "edges and hidden surfaces", "no depth: one distance", 0, "");
+    else if (split == 0)
+        wo_report_leave_out(report, "sheet of split edges", "no pixel mixes two distances", 1,
+                            "sheets");
+    if (plan->setup.has_depth && !sheets[HIDDEN].any)
+        wo_report_leave_out(report, "sheet of hidden surfaces", "nothing is hidden", 1, "sheets");
+    if (plan->highlights.count == 0)
+        wo_report_leave_out(report, "connections to highlights", "no blurred highlight", 0, "");
+}
+
+static wo_status build_scene(wo_plan *plan, const wo_plan_args *args, wo_error *error)
+{
+    const wo_context *context = &plan->context;
+    const wo_lens_blur_areas areas =
+        wo_lens_blur_plan_areas(&plan->setup, &plan->geometry, plan->window);
+    const wo_rect extent = plan->geometry.extent;
+    const wo_rect area = wo_rect_intersect(areas.layers, extent);
+    wo_sheet sheets[SHEETS] = {0};
+    wo_sheet_counts counts = {0};
+    int64_t split = 0;
+    double start = wo_seconds();
+    wo_status status = load_layers(plan, args, area, sheets, &counts, error);
+    if (status == WO_OK && plan->setup.fill_levels > 0) {
+        status = empty_sheet(context, area, &sheets[EDGES], error);
+        for (int i = 0; status == WO_OK && i < WO_LENS_BLUR_LAYERS; i++)
+            if (sheets[i].any)
+                status = wo_sheet_split_edges(context, plan->lens.px_per_dioptre, &sheets[i],
+                                              &sheets[EDGES], &split, error);
+        if (status == WO_OK)
+            status = empty_sheet(context, area, &sheets[HIDDEN], error);
+        if (status == WO_OK)
+            status = wo_sheet_fill_hidden(context, sheets, HIDDEN, plan->lens.px_per_dioptre,
+                                          plan->setup.fill_levels, &sheets[HIDDEN], error);
+    }
+    if (status == WO_OK)
+        status = wo_highlights_take(context, sheets, SHEETS,
+                                    wo_rect_intersect(areas.stack, extent), &plan->lens,
+                                    &plan->highlights, error);
+    plan->report.seconds[WO_STAGE_INPUT] += wo_seconds() - start;
+    start = wo_seconds();
+    if (status == WO_OK)
+        status = wo_stack_create(context, sheets, SHEETS, areas.stack, extent, &plan->stack, error);
+    plan->report.seconds[WO_STAGE_BOUNDS] += wo_seconds() - start;
+    plan->report.sanitised_colour = counts.sanitised_colour;
+    plan->report.sanitised_depth = counts.sanitised_depth;
+    plan->report.edge_depth = counts.edge_depth;
+    plan->report.clamped_radius = counts.clamped_radius;
+    if (status == WO_OK)
+        note_layers(plan, sheets, split);
+    destroy_sheets(context, sheets);
+    return status;
+}
+
+static wo_status check_args(const wo_plan_args *args, wo_error *error)
+{
+    const wo_geometry *g = &args->geometry;
+    if (wo_rect_empty(g->format) || wo_rect_empty(g->extent))
+        return wo_fail(error, WO_ERR_ARGUMENT, "the picture is empty");
+    if (wo_rect_width(g->extent) > WO_MAX_SIDE || wo_rect_height(g->extent) > WO_MAX_SIDE)
+        return wo_fail(error, WO_ERR_RANGE, "the picture is %d x %d px: at most %d on a side",
+                       wo_rect_width(g->extent), wo_rect_height(g->extent), WO_MAX_SIDE);
+    if (!(g->render_scale > 0 && g->render_scale <= 64) ||
+        !(g->pixel_stretch >= 1.0 / 64 && g->pixel_stretch <= 64))
+        return wo_fail(error, WO_ERR_RANGE, "render scale %g, pixel stretch %g: out of range",
+                       g->render_scale, g->pixel_stretch);
+    if (wo_rect_empty(args->window))
+        return wo_fail(error, WO_ERR_ARGUMENT, "nothing to render: the window is empty");
+    for (size_t i = 0; i < WO_LENS_BLUR_CLIPS; i++)
+        WO_TRY(wo_image_validate(&args->inputs[i], wo_lens_blur_clips[i].name, error));
+    if (!args->inputs[WO_CLIP_SOURCE].data)
+        return wo_fail(error, WO_ERR_ARGUMENT, "Source is not connected");
+    return WO_OK;
+}
+
+wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params,
+                                   const wo_plan_args *args, wo_plan **out, wo_error *error)
+{
+    *out = NULL;
+    WO_TRY(check_args(args, error));
+    wo_plan *plan = wo_new(context, error, 1, sizeof *plan);
+    if (!plan)
+        return WO_ERR_NOMEM;
+    plan->context = *context;
+    memcpy(&plan->params, params, sizeof plan->params);
+    plan->geometry = args->geometry;
+    for (size_t i = 0; i < WO_LENS_BLUR_CLIPS; i++)
+        plan->geometry.connected[i] = args->inputs[i].data != NULL;
+    plan->window = wo_rect_intersect(args->window, args->geometry.extent);
+    plan->mask = args->inputs[WO_CLIP_MASK];
+    plan->source = args->inputs[WO_CLIP_SOURCE];
+    plan->source_alpha = args->alpha[WO_CLIP_SOURCE];
+    wo_status status = wo_lens_blur_prepare(&plan->params, &plan->geometry, &plan->setup, error);
+    if (status != WO_OK || wo_rect_empty(plan->window))
+        goto done;
+    /* Inside the renderer vergence is counted from the focus. */
+    wo_thin_lens lens = plan->setup.lens;
+    lens.vf = 0;
+    status = wo_thin_pencils_create(&plan->context, &lens, &plan->setup.aperture,
+                                    plan->geometry.pixel_stretch, plan->params.samples,
+                                    (uint32_t)plan->params.seed, &plan->pencils, error);
+    if (status != WO_OK)
+        goto done;
+    plan->lens = wo_thin_pencils_lens(plan->pencils);
+    if ((status = build_scene(plan, args, error)) != WO_OK)
+        goto done;
+    const double start = wo_seconds();
+    status = wo_lens_rays_create(&plan->context, &plan->stack, &plan->lens, &plan->highlights,
+                                 plan->window,
+                                 plan->setup.radius * fmax(1, plan->geometry.pixel_stretch),
+                                 &plan->rays, error);
+    plan->report.seconds[WO_STAGE_PLAN] = wo_seconds() - start;
+done:
+    if (status != WO_OK)
+        wo_lens_blur_plan_destroy(&plan);
+    *out = plan;
+    return status;
+}
+
+void wo_lens_blur_plan_destroy(wo_plan **plan)
+{
+    if (!*plan)
+        return;
+    const wo_context context = (*plan)->context;
+    wo_lens_rays_destroy(&context, &(*plan)->rays);
+    wo_stack_destroy(&context, &(*plan)->stack);
+    wo_highlights_destroy(&context, &(*plan)->highlights);
+    wo_thin_pencils_destroy(&context, &(*plan)->pencils);
+    wo_delete(&context, *plan);
+    *plan = NULL;
+}
+
+typedef struct printer {
+    char *buffer;
+    size_t size;
+    int length;
+} printer;
+
+static void add(printer *p, const char *format, ...) WO_PRINTF(2, 3);
+
+static void add(printer *p, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    const size_t used = (size_t)p->length < p->size ? (size_t)p->length : p->size;
+    const int n = vsnprintf(p->buffer ? p->buffer + used : NULL, p->size - used, format, args);
+    va_end(args);
+    p->length += n > 0 ? n : 0;
+}
+
+int wo_lens_blur_plan_print(const wo_plan *plan, char *buffer, size_t size)
+{
+    printer p = {buffer, size, 0};
+    const wo_lens_blur_setup *s = &plan->setup;
+    const wo_rect w = plan->window;
+    int64_t tiles[WO_TILE_CLASS_COUNT] = {0};
+    double reach = 0;
+    const size_t count =
+        (size_t)wo_rect_width(plan->rays.tiles) * (size_t)wo_rect_height(plan->rays.tiles);
+    for (size_t i = 0; plan->rays.tile && i < count; i++) {
+        tiles[plan->rays.tile[i].class]++;
+        reach = fmax(reach, (double)plan->rays.tile[i].reach);
+    }
+    if (size > 0)
+        buffer[0] = 0;
+    add(&p, "window      %d,%d .. %d,%d (%d x %d px)\n", w.x1, w.y1, w.x2, w.y2, wo_rect_width(w),
+        wo_rect_height(w));
+    add(&p, "lens        %g mm f/%g, focus at %g m; blur radius %.4g px per dioptre\n",
+        plan->params.focal_length, plan->params.f_stop, plan->params.focus_distance, s->lens.k);
+    add(&p, "blur        largest radius %.2f px (limit %.2f px)\n", reach, s->radius);
+    add(&p, "layers      %d connected, %s; %d sheets after splitting edges and continuing hidden "
+            "surfaces\n",
+        s->layers, s->has_depth ? "with depth" : "no depth: all at infinity", plan->stack.sheets);
+    add(&p, "highlights  %zu connected directly\n", plan->highlights.count);
+    add(&p, "samples     %d lens rays for each pixel, %u different pencils\n", plan->params.samples,
+        plan->lens.sets);
+    for (int i = 0; i < WO_TILE_CLASS_COUNT; i++)
+        add(&p, "tiles       %-7s %lld\n", wo_tile_class_text((wo_tile_class)i),
+            (long long)tiles[i]);
+    for (int i = 0; i < plan->report.left_out_count; i++)
+        add(&p, "left out    %s: %s\n", plan->report.left_out[i].what,
+            plan->report.left_out[i].why);
+    return p.length;
+}

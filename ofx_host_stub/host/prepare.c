@@ -1,0 +1,331 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "internal.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ------------------------------------------------------------------------------------------- regions */
+
+#define SNAP 1e-6 /* of a pixel: what rounding may have added on the way there and back */
+
+static int32_t to_pixel(double value)
+{
+    if (!(value > -WO_MAX_COORDINATE))
+        return -WO_MAX_COORDINATE;
+    return value < WO_MAX_COORDINATE ? (int32_t)value : WO_MAX_COORDINATE;
+}
+
+wo_rect wo_region_pixels(wo_host_region r, double scale_x, double scale_y, double aspect)
+{
+    if (!(r.x2 > r.x1 && r.y2 > r.y1))
+        return (wo_rect){0, 0, 0, 0};
+    const wo_rect pixels = {to_pixel(floor(r.x1 * scale_x / aspect + SNAP)),
+                            to_pixel(floor(r.y1 * scale_y + SNAP)),
+                            to_pixel(ceil(r.x2 * scale_x / aspect - SNAP)),
+                            to_pixel(ceil(r.y2 * scale_y - SNAP))};
+    return wo_rect_empty(pixels) ? (wo_rect){0, 0, 0, 0} : pixels;
+}
+
+wo_host_region wo_pixels_region(wo_rect p, double scale_x, double scale_y, double aspect)
+{
+    return (wo_host_region){p.x1 * aspect / scale_x, p.y1 / scale_y, p.x2 * aspect / scale_x,
+                            p.y2 / scale_y};
+}
+
+bool wo_region_infinite(wo_host_region r)
+{
+    return r.x1 <= -WO_INFINITE || r.y1 <= -WO_INFINITE || r.x2 >= WO_INFINITE ||
+           r.y2 >= WO_INFINITE;
+}
+
+wo_host_region wo_project_region(const wo_host_instance *instance)
+{
+    const wo_host_project *p = &instance->project;
+    return (wo_host_region){p->offset[0], p->offset[1], p->offset[0] + p->size[0],
+                            p->offset[1] + p->size[1]};
+}
+
+static bool region_empty(wo_host_region r)
+{
+    return !(r.x2 > r.x1 && r.y2 > r.y1);
+}
+
+wo_host_region wo_region_join(wo_host_region a, wo_host_region b)
+{
+    if (region_empty(a))
+        return b;
+    if (region_empty(b))
+        return a;
+    return (wo_host_region){fmin(a.x1, b.x1), fmin(a.y1, b.y1), fmax(a.x2, b.x2),
+                            fmax(a.y2, b.y2)};
+}
+
+static bool region_sane(wo_host_region r)
+{
+    return r.x2 >= r.x1 && r.y2 >= r.y1; /* NaN fails */
+}
+
+wo_status wo_port_region(wo_port *port, double time, wo_host_region *region, wo_error *error)
+{
+    *region = (wo_host_region){0};
+    if (!port->connected)
+        return wo_fail(error, WO_ERR_NOT_FOUND, "clip %.60s is not connected", port->name);
+    WO_TRY(port->source.region(port->source.user, time, region, error));
+    if (!region_sane(*region))
+        return wo_fail(error, WO_ERR_RANGE, "clip %.60s covers %g, %g to %g, %g", port->name,
+                       region->x1, region->y1, region->x2, region->y2);
+    return WO_OK;
+}
+
+static void set_region(wo_props *props, const char *name, wo_host_region r)
+{
+    wo_props_set_double(props, name, 0, r.x1);
+    wo_props_set_double(props, name, 1, r.y1);
+    wo_props_set_double(props, name, 2, r.x2);
+    wo_props_set_double(props, name, 3, r.y2);
+}
+
+static wo_host_region get_region(const wo_props *props, const char *name)
+{
+    return (wo_host_region){
+        wo_props_double(props, name, 0, 0), wo_props_double(props, name, 1, 0),
+        wo_props_double(props, name, 2, 0), wo_props_double(props, name, 3, 0)};
+}
+
+wo_clip_name wo_with_clip(const char *prefix, const wo_port *port)
+{
+    wo_clip_name name;
+    snprintf(name.text, sizeof name.text, "%s%s", prefix, port->name);
+    return name;
+}
+
+void wo_arguments(wo_props *in, wo_props *out, wo_host_instance *instance, double time,
+                  const double scale[2])
+{
+    wo_props_init(in, instance->object.host, WO_PROPS_NEVER, "the arguments");
+    wo_props_init(out, instance->object.host, WO_PROPS_ACTION, "the answers");
+    wo_props_add_one(in, kOfxPropTime, WO_PROP_DOUBLE, 1, false);
+    wo_props_set_double(in, kOfxPropTime, 0, time);
+    if (!scale)
+        return;
+    wo_props_add_one(in, kOfxImageEffectPropRenderScale, WO_PROP_DOUBLE, 2, false);
+    wo_props_set_double(in, kOfxImageEffectPropRenderScale, 0, scale[0]);
+    wo_props_set_double(in, kOfxImageEffectPropRenderScale, 1, scale[1]);
+}
+
+/* ---------------------------------------------------------------------- region, needed, frames, domain */
+
+static wo_status default_region(wo_host_instance *instance, double time, wo_host_region *region,
+                                wo_error *error)
+{
+    const bool filter = strcmp(instance->context->short_name, "Filter") == 0;
+    wo_host_region all = {0}, one;
+    *region = wo_project_region(instance);
+    if (strcmp(instance->context->short_name, "Generator") == 0)
+        return WO_OK;
+    for (size_t i = 0; i < instance->object.port_count; i++) {
+        wo_port *port = instance->object.ports[i];
+        const bool source = strcmp(port->name, kOfxImageEffectSimpleSourceClipName) == 0;
+        const bool counts =
+            source ||
+            (!filter && !wo_props_int(&port->props, kOfxImageClipPropOptional, 0, 0));
+        if (!port->connected || !counts)
+            continue;
+        const wo_status status = wo_port_region(port, time, &one, error);
+        if (status == WO_ERR_NOT_FOUND) /* no picture at this time */
+            continue;
+        WO_TRY(status);
+        all = wo_region_join(all, one);
+    }
+    if (!region_empty(all))
+        *region = all;
+    return WO_OK;
+}
+
+static wo_status check_scale(double scale_x, double scale_y, double time, wo_error *error)
+{
+    if (!(scale_x > 0 && scale_y > 0 && scale_x <= 64 && scale_y <= 64 && isfinite(time)))
+        return wo_fail(error, WO_ERR_RANGE, "render scale %g, %g at time %g", scale_x, scale_y,
+                       time);
+    return WO_OK;
+}
+
+wo_status wo_host_get_region(wo_host_instance *instance, double time, double scale_x,
+                             double scale_y, wo_host_region *region, wo_rect *pixels,
+                             wo_error *error)
+{
+    const double scale[2] = {scale_x, scale_y};
+    wo_props in, out;
+    wo_host_region usual = {0};
+    *region = usual;
+    if (pixels)
+        *pixels = (wo_rect){0, 0, 0, 0};
+    WO_TRY(check_scale(scale_x, scale_y, time, error));
+    WO_TRY(wo_prepare(instance, error));
+    WO_TRY(default_region(instance, time, &usual, error));
+    wo_arguments(&in, &out, instance, time, scale);
+    wo_props_add_one(&out, kOfxImageEffectPropRegionOfDefinition, WO_PROP_DOUBLE, 4, true);
+    set_region(&out, kOfxImageEffectPropRegionOfDefinition, usual);
+    wo_frame frame = {.action = WO_ACTION_REGION, .time = time, .scale = {scale_x, scale_y}};
+    const wo_status status = wo_act_on(instance, &frame, &in, &out, NULL, error);
+    *region = get_region(&out, kOfxImageEffectPropRegionOfDefinition);
+    wo_props_clear(&in);
+    wo_props_clear(&out);
+    WO_TRY(status);
+    if (!region_sane(*region)) {
+        wo_violate_in(&frame, "the region is %g, %g to %g, %g", region->x1, region->y1,
+                   region->x2, region->y2);
+        *region = usual;
+    }
+    if (pixels) {
+        const wo_port *output = wo_object_port(&instance->object, kOfxImageEffectOutputClipName);
+        *pixels = wo_region_pixels(
+            wo_region_infinite(*region) ? wo_project_region(instance) : *region, scale_x, scale_y,
+            wo_props_double(&output->props, kOfxImagePropPixelAspectRatio, 0, 1));
+    }
+    return WO_OK;
+}
+
+wo_status wo_host_get_needed(wo_host_instance *instance, double time, double scale_x,
+                             double scale_y, wo_host_region region, wo_host_region *needed,
+                             size_t count, wo_error *error)
+{
+    const double scale[2] = {scale_x, scale_y};
+    wo_props in, out;
+    if (count != instance->object.port_count)
+        return wo_fail(error, WO_ERR_ARGUMENT, "there are %zu clips, not %zu",
+                       instance->object.port_count, count);
+    WO_TRY(check_scale(scale_x, scale_y, time, error));
+    WO_TRY(wo_prepare(instance, error));
+    wo_arguments(&in, &out, instance, time, scale);
+    wo_props_add_one(&in, kOfxImageEffectPropRegionOfInterest, WO_PROP_DOUBLE, 4, false);
+    set_region(&in, kOfxImageEffectPropRegionOfInterest, region);
+    for (size_t i = 0; i < count; i++) {
+        const wo_port *port = instance->object.ports[i];
+        const wo_clip_name name = wo_with_clip("OfxImageClipPropRoI_", port);
+        needed[i] = (wo_host_region){0};
+        if (port->output)
+            continue;
+        wo_props_add_one(&out, name.text, WO_PROP_DOUBLE, 4, true);
+        set_region(&out, name.text, region);
+    }
+    wo_frame frame = {.action = WO_ACTION_NEEDED, .time = time, .scale = {scale_x, scale_y}};
+    const wo_status status = wo_act_on(instance, &frame, &in, &out, NULL, error);
+    for (size_t i = 0; status == WO_OK && i < count; i++) {
+        const wo_port *port = instance->object.ports[i];
+        if (port->output)
+            continue;
+        needed[i] = get_region(&out, wo_with_clip("OfxImageClipPropRoI_", port).text);
+        if (region_sane(needed[i]))
+            continue;
+        wo_violate_in(&frame, "the region of interest of \"%.80s\" is %g, %g to %g, %g",
+                   port->name, needed[i].x1, needed[i].y1, needed[i].x2, needed[i].y2);
+        needed[i] = region;
+    }
+    wo_props_clear(&in);
+    wo_props_clear(&out);
+    return status;
+}
+
+wo_status wo_host_get_frames_needed(wo_host_instance *instance, double time, double (*ranges)[2],
+                                    size_t count, wo_error *error)
+{
+    wo_props in, out;
+    if (count != instance->object.port_count)
+        return wo_fail(error, WO_ERR_ARGUMENT, "there are %zu clips, not %zu",
+                       instance->object.port_count, count);
+    for (size_t i = 0; i < count; i++)
+        ranges[i][0] = ranges[i][1] = time;
+    WO_TRY(wo_prepare(instance, error));
+    if (!instance->object.entry->info.temporal)
+        return WO_OK;
+    wo_arguments(&in, &out, instance, time, NULL);
+    for (size_t i = 0; i < count; i++) {
+        const wo_clip_name name = wo_with_clip("OfxImageClipPropFrameRange_", instance->object.ports[i]);
+        if (instance->object.ports[i]->output)
+            continue;
+        wo_props_add_one(&out, name.text, WO_PROP_DOUBLE, 0, true);
+        wo_props_set_double(&out, name.text, 0, time);
+        wo_props_set_double(&out, name.text, 1, time);
+    }
+    wo_frame frame = {.action = WO_ACTION_FRAMES, .time = time, .scale = {1, 1}};
+    const wo_status status = wo_act_on(instance, &frame, &in, &out, NULL, error);
+    for (size_t i = 0; status == WO_OK && i < count; i++) {
+        const wo_clip_name name = wo_with_clip("OfxImageClipPropFrameRange_", instance->object.ports[i]);
+        ranges[i][0] = wo_props_double(&out, name.text, 0, time);
+        ranges[i][1] = wo_props_double(&out, name.text, 1, time);
+    }
+    wo_props_clear(&in);
+    wo_props_clear(&out);
+    return status;
+}
+
+wo_status wo_host_get_time_domain(wo_host_instance *instance, double *first, double *last,
+                                  wo_error *error)
+{
+    wo_props in, out;
+    bool any = false;
+    *first = instance->project.first_frame;
+    *last = instance->project.last_frame;
+    WO_TRY(wo_prepare(instance, error));
+    for (size_t i = 0; i < instance->object.port_count; i++) {
+        const wo_port *port = instance->object.ports[i];
+        if (!port->connected)
+            continue;
+        *first = any ? fmin(*first, port->source.first_frame) : port->source.first_frame;
+        *last = any ? fmax(*last, port->source.last_frame) : port->source.last_frame;
+        any = true;
+    }
+    if (strcmp(instance->context->short_name, "General") != 0)
+        return WO_OK;
+    wo_arguments(&in, &out, instance, instance->time, NULL);
+    wo_props_add_one(&out, kOfxImageEffectPropFrameRange, WO_PROP_DOUBLE, 2, true);
+    wo_props_set_double(&out, kOfxImageEffectPropFrameRange, 0, *first);
+    wo_props_set_double(&out, kOfxImageEffectPropFrameRange, 1, *last);
+    wo_frame frame = {.action = WO_ACTION_TIME_DOMAIN, .time = instance->time, .scale = {1, 1}};
+    const wo_status status = wo_act_on(instance, &frame, NULL, &out, NULL, error);
+    if (status == WO_OK) {
+        *first = wo_props_double(&out, kOfxImageEffectPropFrameRange, 0, *first);
+        *last = wo_props_double(&out, kOfxImageEffectPropFrameRange, 1, *last);
+    }
+    wo_props_clear(&in);
+    wo_props_clear(&out);
+    return status;
+}
+
+wo_status wo_ask_identity(wo_host_instance *instance, double time, const double scale[2],
+                          wo_rect window, wo_port **port, double *other_time, wo_error *error)
+{
+    wo_props in, out;
+    OfxStatus answer = kOfxStatReplyDefault;
+    *port = NULL;
+    *other_time = time;
+    wo_arguments(&in, &out, instance, time, scale);
+    wo_props_add_one(&in, kOfxImageEffectPropFieldToRender, WO_PROP_STRING, 1, false);
+    wo_props_set_text(&in, kOfxImageEffectPropFieldToRender, 0, kOfxImageFieldNone);
+    wo_props_add_one(&in, kOfxImageEffectPropRenderWindow, WO_PROP_INT, 4, false);
+    wo_props_set_int(&in, kOfxImageEffectPropRenderWindow, 0, window.x1);
+    wo_props_set_int(&in, kOfxImageEffectPropRenderWindow, 1, window.y1);
+    wo_props_set_int(&in, kOfxImageEffectPropRenderWindow, 2, window.x2);
+    wo_props_set_int(&in, kOfxImageEffectPropRenderWindow, 3, window.y2);
+    wo_props_add_one(&out, kOfxPropName, WO_PROP_STRING, 1, true);
+    wo_props_add_one(&out, kOfxPropTime, WO_PROP_DOUBLE, 1, true);
+    wo_props_set_double(&out, kOfxPropTime, 0, time);
+    wo_frame frame = {.action = WO_ACTION_IDENTITY, .time = time, .scale = {scale[0], scale[1]}};
+    const wo_status status = wo_act_on(instance, &frame, &in, &out, &answer, error);
+    if (status == WO_OK && answer == kOfxStatOK) {
+        const char *name = wo_props_text(&out, kOfxPropName, 0, "");
+        *port = wo_object_port(&instance->object, name);
+        *other_time = wo_props_double(&out, kOfxPropTime, 0, time);
+        if (!*port || (*port)->output || !isfinite(*other_time)) {
+            wo_violate_in(&frame, "identity with \"%.80s\", which is no input clip",
+                       name);
+            *port = NULL;
+        }
+    }
+    wo_props_clear(&in);
+    wo_props_clear(&out);
+    return status;
+}

@@ -1,0 +1,37 @@
+# The glue between OpenFX and the core, tested with a plugin of its own.
+find_package(Threads REQUIRED)
+set(probe_dir ${CMAKE_CURRENT_LIST_DIR}/plugins)
+set(probe_bundles ${CMAKE_BINARY_DIR}/tests/plugins)
+wo_add_ofx_plugin(Probe ${probe_dir}/probe_plugin.c ${probe_dir}/probe_effect.c
+    CORE wo_base DIRECTORY ${probe_bundles} NO_INSTALL)
+
+# Under hosts as they are.
+add_library(wo_glue_fixture STATIC
+    ${CMAKE_CURRENT_LIST_DIR}/glue_fixture.c
+    ${CMAKE_CURRENT_LIST_DIR}/mock_host.c
+    ${CMAKE_CURRENT_LIST_DIR}/mock_objects.c
+    ${probe_dir}/probe_effect.c
+    ${PROJECT_SOURCE_DIR}/plugins/ofx_pixels.c)
+target_include_directories(wo_glue_fixture PUBLIC
+    ${CMAKE_CURRENT_LIST_DIR} ${PROJECT_SOURCE_DIR}/plugins ${PROJECT_SOURCE_DIR}/include)
+target_compile_definitions(wo_glue_fixture PRIVATE PROBE_BINARY="$<TARGET_FILE:Probe>")
+target_link_libraries(wo_glue_fixture PUBLIC
+    wo_base wo_options cmocka Threads::Threads ${CMAKE_DL_LIBS} m)
+add_dependencies(wo_glue_fixture Probe)
+foreach(name IN ITEMS glue_hosts glue_images)
+    add_executable(test_${name} ${CMAKE_CURRENT_LIST_DIR}/test_${name}.c)
+    target_link_libraries(test_${name} PRIVATE wo_glue_fixture)
+    add_test(NAME contract.${name} COMMAND test_${name})
+endforeach()
+
+add_executable(test_ofx_pixels ${PROJECT_SOURCE_DIR}/tests/unit/test_ofx_pixels.c)
+target_link_libraries(test_ofx_pixels PRIVATE wo_glue_fixture)
+add_test(NAME unit.ofx_pixels COMMAND test_ofx_pixels)
+
+# Under the host that forgives nothing.
+add_executable(test_glue ${CMAKE_CURRENT_LIST_DIR}/test_glue.c ${probe_dir}/probe_effect.c)
+target_include_directories(test_glue PRIVATE ${CMAKE_CURRENT_LIST_DIR})
+target_compile_definitions(test_glue PRIVATE PROBE_DIRECTORY="${probe_bundles}")
+target_link_libraries(test_glue PRIVATE wo_host wo_base wo_options cmocka Threads::Threads m)
+add_dependencies(test_glue Probe)
+add_test(NAME contract.glue COMMAND test_glue)

@@ -1,0 +1,744 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "host.h"
+#include "plugins/probe_effect.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <pthread.h>
+
+/* The glue under the strict host: everything right, and not one violation. Odd hosts are the matter
+   of test_glue_hosts.c and test_glue_images.c. */
+
+/* ---- a scene without files: noise in a rectangle, the same at every scale's pixels ---- */
+
+typedef struct noise {
+    wo_host_region region;
+    int32_t components;
+    unsigned seed;
+    double aspect;
+    bool missing; /* has no picture at any time */
+} noise;
+
+static float noise_at(const noise *n, int32_t x, int32_t y, int32_t component)
+{
+    uint32_t h = n->seed * 2654435761u + (uint32_t)x * 374761393u + (uint32_t)y * 668265263u +
+                 (uint32_t)component * 2246822519u;
+    h = (h ^ (h >> 13)) * 1274126177u;
+    return (float)((h ^ (h >> 16)) & 0xffffff) / 16777216;
+}
+
+static wo_status noise_region(void *user, double time, wo_host_region *region, wo_error *error)
+{
+    const noise *const n = user;
+    (void)time;
+    (void)error;
+    *region = n->region;
+    return WO_OK;
+}
+
+static void fill(const noise *n, const wo_image *image)
+{
+    for (int32_t y = image->bounds.y1; y < image->bounds.y2; y++)
+        for (int32_t x = image->bounds.x1; x < image->bounds.x2; x++)
+            for (int32_t c = 0; c < image->components; c++)
+                wo_image_at(image, x, y)[c] = noise_at(n, x, y, c);
+}
+
+static wo_status noise_pixels(void *user, const wo_host_request *request, const wo_image *image,
+                              wo_error *error)
+{
+    const noise *const n = user;
+    (void)request;
+    if (n->missing)
+        return wo_fail(error, WO_ERR_NOT_FOUND, "no picture");
+    fill(n, image);
+    return WO_OK;
+}
+
+static noise clips[PROBE_CLIPS];
+
+static void reset_clips(double aspect)
+{
+    clips[0] = (noise){{-6, 4, 61, 40}, 4, 1, aspect, false};
+    clips[1] = (noise){{10, -20, 41, 33}, 3, 2, aspect, false};
+    clips[2] = (noise){{-30, 11, 48, 90}, 1, 3, aspect, false};
+}
+
+static wo_host_source source_of(noise *n)
+{
+    wo_host_source source = WO_HOST_SOURCE_INIT;
+    source.user = n;
+    source.components = n->components;
+    source.pixel_aspect = n->aspect;
+    source.region = noise_region;
+    source.pixels = noise_pixels;
+    return source;
+}
+
+/* ---- the host ---- */
+
+typedef struct watcher {
+    atomic_int polls;
+    atomic_int stop_after; /* polls; < 0 = never */
+} watcher;
+
+static watcher watch;
+
+static bool aborted(void *user)
+{
+    watcher *const w = user;
+    const int limit = atomic_load(&w->stop_after);
+    return atomic_fetch_add(&w->polls, 1) >= limit && limit >= 0;
+}
+
+static wo_host *open_host(unsigned threads, unsigned layout)
+{
+    static const char *const directories[] = {PROBE_DIRECTORY};
+    wo_error error = {WO_OK, ""};
+    wo_host *host = NULL;
+    const wo_host_config config = {.threads = threads,
+                                   .directories = directories,
+                                   .directory_count = 1,
+                                   .strict = true,
+                                   .layout = layout,
+                                   .user = &watch,
+                                   .aborted = aborted};
+    atomic_store(&watch.polls, 0);
+    atomic_store(&watch.stop_after, -1);
+    if (wo_host_create(&config, &host, &error) != WO_OK)
+        fail_msg("%s", error.text);
+    return host;
+}
+
+static void assert_no_violations(wo_host *host)
+{
+    const size_t count = wo_host_violation_count(host);
+    for (size_t i = 0; i < count; i++)
+        print_error("violation: %s\n", wo_host_violation(host, i));
+    assert_int_equal(count, 0);
+}
+
+static void close_host(wo_host **host)
+{
+    assert_no_violations(*host);
+    wo_host_destroy(host);
+}
+
+static const wo_host_plugin *probe_of(wo_host *host)
+{
+    const wo_host_plugin *plugin = NULL;
+    wo_error error = {WO_OK, ""};
+    if (wo_host_find_plugin(host, "Probe", &plugin, &error) != WO_OK)
+        fail_msg("%s", error.text);
+    return plugin;
+}
+
+static wo_host_instance *create(wo_host *host, const char *context, double aspect)
+{
+    wo_host_project project = WO_HOST_PROJECT_INIT;
+    wo_host_instance *instance = NULL;
+    wo_error error = {WO_OK, ""};
+    project.size[0] = 64;
+    project.size[1] = 48;
+    project.pixel_aspect = aspect;
+    if (wo_host_instance_create(host, probe_of(host), context, &project, &instance, &error) !=
+        WO_OK)
+        fail_msg("%s", error.text);
+    return instance;
+}
+
+static void connect(wo_host_instance *instance, int clip)
+{
+    const wo_host_source source = source_of(&clips[clip]);
+    assert_int_equal(wo_host_set_clip(instance, probe_effect.clips[clip].name, &source, NULL),
+                     WO_OK);
+}
+
+static void set(wo_host_instance *instance, const char *name, const char *text)
+{
+    wo_error error = {WO_OK, ""};
+    if (wo_host_param_set_text(instance, name, text, &error) != WO_OK)
+        fail_msg("%s", error.text);
+}
+
+/* ---- what must come out ---- */
+
+typedef struct setup {
+    double scale[2];
+    double aspect;
+    bool connected[PROBE_CLIPS];
+    probe_params params;
+} setup;
+
+static setup default_setup(void)
+{
+    setup s = {.scale = {1, 1}, .aspect = 1, .connected = {true, true, true}};
+    wo_params_default(probe_effect.params, probe_effect.param_count, &s.params);
+    return s;
+}
+
+static wo_rect pixels_of(const setup *s, wo_host_region r)
+{
+    const double sx = s->scale[0] / s->aspect, sy = s->scale[1];
+    return (wo_rect){(int32_t)floor(r.x1 * sx), (int32_t)floor(r.y1 * sy), (int32_t)ceil(r.x2 * sx),
+                     (int32_t)ceil(r.y2 * sy)};
+}
+
+static wo_image new_image(wo_rect bounds, int32_t components)
+{
+    const size_t row = (size_t)wo_rect_width(bounds) * (size_t)components * sizeof(float);
+    const wo_image image = {calloc((size_t)wo_rect_height(bounds), row), bounds, (ptrdiff_t)row,
+                            components};
+    assert_non_null(image.data);
+    return image;
+}
+
+static wo_image expected(const setup *s)
+{
+    const wo_context context = WO_CONTEXT_INIT;
+    wo_image inputs[PROBE_CLIPS] = {{.data = NULL}};
+    wo_plan_args args = {.geometry = WO_GEOMETRY_INIT, .inputs = inputs};
+    wo_plan *plan = NULL;
+    args.geometry.format = pixels_of(s, (wo_host_region){0, 0, 64, 48});
+    args.geometry.extent = args.window = pixels_of(s, clips[0].region);
+    args.geometry.render_scale = s->scale[0];
+    args.geometry.pixel_stretch = s->aspect * s->scale[1] / s->scale[0];
+    for (int i = 0; i < PROBE_CLIPS; i++) {
+        args.geometry.connected[i] = s->connected[i];
+        if (!s->connected[i])
+            continue;
+        inputs[i] = new_image(pixels_of(s, clips[i].region), clips[i].components);
+        fill(&clips[i], &inputs[i]);
+    }
+    const wo_image output = new_image(args.window, 4);
+    assert_int_equal(probe_effect.plan_create(&context, &s->params, &args, &plan, NULL), WO_OK);
+    assert_int_equal(probe_effect.render(plan, args.window, &output, NULL, NULL), WO_OK);
+    probe_effect.plan_destroy(&plan);
+    for (int i = 0; i < PROBE_CLIPS; i++)
+        free(inputs[i].data);
+    return output;
+}
+
+static void assert_same(const wo_image *wanted, const wo_image *got)
+{
+    assert_true(wo_rect_equal(wanted->bounds, got->bounds));
+    assert_int_equal(got->components, 4);
+    for (int32_t y = wanted->bounds.y1; y < wanted->bounds.y2; y++)
+        for (int32_t x = wanted->bounds.x1; x < wanted->bounds.x2; x++) {
+            const float *const a = wo_image_at(wanted, x, y), *const b = wo_image_at(got, x, y);
+            if (memcmp(a, b, 4 * sizeof(float)) != 0)
+                fail_msg("pixel %d,%d: %.9g %.9g %.9g %.9g for %.9g %.9g %.9g %.9g", (int)x, (int)y,
+                         (double)b[0], (double)b[1], (double)b[2], (double)b[3], (double)a[0],
+                         (double)a[1], (double)a[2], (double)a[3]);
+        }
+}
+
+static wo_host_render_args args_of(const setup *s)
+{
+    wo_host_render_args args = WO_HOST_RENDER_INIT;
+    args.time = 1;
+    args.scale_x = s->scale[0];
+    args.scale_y = s->scale[1];
+    return args;
+}
+
+static void assert_render(wo_host_instance *instance, const setup *s,
+                          const wo_host_render_args *args)
+{
+    wo_error error = {WO_OK, ""};
+    wo_image got = {.data = NULL};
+    wo_image wanted = expected(s);
+    wo_host_render_result result;
+    if (wo_host_render(instance, args, &got, &result, &error) != WO_OK)
+        fail_msg("%s", error.text);
+    assert_false(result.identity);
+    assert_same(&wanted, &got);
+    wo_host_image_free(&got);
+    free(wanted.data);
+}
+
+/* ---- tests ---- */
+
+static void the_description_is_the_table(void **state)
+{
+    (void)state;
+    static const char *const contexts[] = {"Filter", "General"};
+    wo_host *host = open_host(1, 0);
+    const wo_host_plugin *const plugin = probe_of(host);
+    assert_string_equal(plugin->identifier, "org.wideopen.test.Probe");
+    assert_string_equal(plugin->label, probe_effect.label);
+    assert_string_equal(plugin->group, "WideOpen/Test");
+    assert_string_equal(plugin->description, probe_effect.help);
+    assert_int_equal(plugin->context_name_count, 2);
+    assert_int_equal(plugin->safety, WO_HOST_FULLY_SAFE);
+    assert_true(plugin->tiles && plugin->multi_resolution && plugin->float_pixels);
+    assert_false(plugin->temporal);
+    assert_string_equal(plugin->colour_style, "OfxImageEffectColourManagementCore");
+    for (size_t k = 0; k < WO_COUNT(contexts); k++) {
+        const wo_host_context_info *const context = wo_host_find_context(plugin, contexts[k]);
+        assert_non_null(context);
+        assert_int_equal(context->clip_count, PROBE_CLIPS + 1);
+        for (size_t i = 0; i < PROBE_CLIPS; i++) {
+            const wo_clip *const row = &probe_effect.clips[i];
+            const wo_host_clip_info *const clip = wo_host_find_clip(context, row->name);
+            assert_non_null(clip);
+            assert_string_equal(clip->label, row->label);
+            assert_int_equal(clip->components, row->components);
+            assert_int_equal(clip->optional, i > 0);
+            assert_int_equal(clip->mask, row->mask);
+            assert_true(clip->tiles);
+            assert_false(clip->temporal || clip->output);
+        }
+        const wo_host_clip_info *const output = wo_host_find_clip(context, "Output");
+        assert_non_null(output);
+        assert_int_equal(output->components, WO_HOST_RGBA);
+        for (size_t i = 0; i < probe_effect.param_count; i++) {
+            static const wo_host_param_type kinds[] = {
+                WO_HOST_PARAM_DOUBLE, WO_HOST_PARAM_INTEGER,   WO_HOST_PARAM_BOOLEAN,
+                WO_HOST_PARAM_CHOICE, WO_HOST_PARAM_DOUBLE_2D, WO_HOST_PARAM_RGB,
+                WO_HOST_PARAM_STRING};
+            const wo_param *const row = &probe_effect.params[i];
+            const wo_host_param_info *const param = wo_host_find_param(context, row->key);
+            assert_non_null(param);
+            assert_int_equal(param->kind, kinds[row->type]);
+            assert_string_equal(param->label, row->label);
+            assert_string_equal(param->script_name, row->key);
+            assert_string_equal(param->parent, row->group);
+            assert_memory_equal(param->hint, row->help, strlen(row->help));
+            assert_int_equal(param->animates, row->animates);
+            assert_int_equal(param->dimension, wo_param_values(row));
+            assert_int_equal(param->choice_count, wo_param_choice_count(row));
+            assert_false(param->secret);
+            for (int j = 0; j < wo_param_values(row); j++)
+                assert_true(param->initial[j] == row->initial[j]);
+            for (int j = 0; row->type != WO_PARAM_BOOL && row->type != WO_PARAM_CHOICE &&
+                            j < wo_param_values(row);
+                 j++) {
+                assert_true(param->min[j] == row->min && param->max[j] == row->max);
+                assert_true(param->ui_min[j] == row->ui_min && param->ui_max[j] == row->ui_max);
+            }
+            for (size_t j = 0; j < param->choice_count; j++)
+                assert_string_equal(param->choices[j], row->choice_labels[j]);
+            if (row->type == WO_PARAM_STRING)
+                assert_string_equal(param->initial_text, row->initial_text);
+        }
+        for (size_t i = 0; i < probe_effect.group_count; i++) {
+            const wo_host_param_info *const group =
+                wo_host_find_param(context, probe_effect.groups[i].key);
+            assert_non_null(group);
+            assert_int_equal(group->kind, WO_HOST_PARAM_GROUP);
+            assert_string_equal(group->label, probe_effect.groups[i].label);
+            assert_int_equal(group->open, probe_effect.groups[i].open);
+        }
+    }
+    close_host(&host);
+}
+
+static void it_can_be_loaded_many_times(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        wo_host *host = open_host(2, 0);
+        reset_clips(1);
+        wo_host_instance *instance = create(host, "Filter", 1);
+        connect(instance, PROBE_SOURCE);
+        setup s = default_setup();
+        s.connected[1] = s.connected[2] = false;
+        const wo_host_render_args args = args_of(&s);
+        assert_render(instance, &s, &args);
+        wo_host_instance_destroy(&instance);
+        close_host(&host);
+    }
+}
+
+static void optional_clips_may_be_missing(void **state)
+{
+    (void)state;
+    static const char *const contexts[] = {"Filter", "General"};
+    wo_host *host = open_host(2, 0);
+    for (size_t k = 0; k < WO_COUNT(contexts); k++)
+        for (unsigned bits = 0; bits < 8; bits++) {
+            reset_clips(1);
+            wo_host_instance *instance = create(host, contexts[k], 1);
+            setup s = default_setup();
+            const wo_host_render_args args = args_of(&s);
+            connect(instance, PROBE_SOURCE);
+            for (int clip = 1; clip <= 2; clip++) {
+                s.connected[clip] = bits & (unsigned)clip;
+                if (s.connected[clip])
+                    connect(instance, clip);
+            }
+            if (bits & 4) { /* connected, but with nothing to give */
+                for (int clip = 1; clip <= 2; clip++) {
+                    clips[clip].missing = true;
+                    connect(instance, clip);
+                    s.connected[clip] = false;
+                }
+            }
+            assert_render(instance, &s, &args);
+            wo_host_instance_destroy(&instance);
+            assert_no_violations(host);
+        }
+    close_host(&host);
+}
+
+static void a_source_without_pictures_is_black(void **state)
+{
+    (void)state;
+    wo_host *host = open_host(2, 0);
+    reset_clips(1);
+    clips[PROBE_SOURCE].missing = true;
+    wo_host_instance *instance = create(host, "General", 1);
+    const setup s = default_setup();
+    const wo_host_render_args args = args_of(&s);
+    wo_image got = {.data = NULL};
+    connect(instance, PROBE_SOURCE);
+    connect(instance, PROBE_DEPTH);
+    assert_int_equal(wo_host_render(instance, &args, &got, NULL, NULL), WO_OK);
+    for (int32_t y = got.bounds.y1; y < got.bounds.y2; y++)
+        for (int32_t x = got.bounds.x1; x < got.bounds.x2; x++)
+            for (int c = 0; c < 4; c++)
+                assert_true(wo_image_at(&got, x, y)[c] == 0);
+    wo_host_image_free(&got);
+    wo_host_instance_destroy(&instance);
+    close_host(&host);
+}
+
+static void scales_aspects_layouts_and_tiles_agree(void **state)
+{
+    (void)state;
+    static const double scales[][2] = {{1, 1}, {0.5, 0.5}, {0.25, 0.25}, {0.5, 0.25}, {0.1, 0.1}};
+    static const double aspects[] = {1, 2, 0.5};
+    static const int32_t tiles[][2] = {{0, 0}, {16, 16}, {7, 5}, {0, 1}};
+    static const unsigned layouts[] = {0, WO_HOST_NEGATIVE_ROWS, WO_HOST_LARGER_IMAGES,
+                                       WO_HOST_NEGATIVE_ROWS | WO_HOST_PADDED_ROWS |
+                                           WO_HOST_LARGER_IMAGES};
+    for (size_t l = 0; l < WO_COUNT(layouts); l++) {
+        wo_host *host = open_host(3, layouts[l]);
+        for (size_t a = 0; a < WO_COUNT(aspects); a++) {
+            reset_clips(aspects[a]);
+            wo_host_instance *instance = create(host, "General", aspects[a]);
+            for (int clip = 0; clip < PROBE_CLIPS; clip++)
+                connect(instance, clip);
+            set(instance, "radius", "4");
+            for (size_t k = 0; k < WO_COUNT(scales); k++)
+                for (size_t t = 0; t < WO_COUNT(tiles); t++) {
+                    setup s = default_setup();
+                    s.params.radius = 4;
+                    s.aspect = aspects[a];
+                    memcpy(s.scale, scales[k], sizeof s.scale);
+                    wo_host_render_args args = args_of(&s);
+                    args.tile_width = tiles[t][0];
+                    args.tile_height = tiles[t][1];
+                    args.parallel_tiles = t == 2 ? 3 : 1;
+                    assert_render(instance, &s, &args);
+                }
+            wo_host_instance_destroy(&instance);
+        }
+        close_host(&host);
+    }
+}
+
+static void parameters_reach_the_effect(void **state)
+{
+    (void)state;
+    wo_host *host = open_host(2, 0);
+    reset_clips(1);
+    wo_host_instance *instance = create(host, "General", 1);
+    for (int clip = 0; clip < PROBE_CLIPS; clip++)
+        connect(instance, clip);
+    set(instance, "radius", "key@0:0,key@2:6");
+    set(instance, "angle", "90");
+    set(instance, "repeats", "3");
+    set(instance, "centre", "10,-20");
+    set(instance, "tint", "0.5,0.25,2");
+    setup s = default_setup();
+    s.params = (probe_params){.radius = 3,
+                              .angle = 90,
+                              .repeats = 3,
+                              .on = 1,
+                              .centre = {10, -20},
+                              .tint = {0.5, 0.25, 2}};
+    wo_host_render_args args = args_of(&s);
+    assert_render(instance, &s, &args);
+    args.time = 2;
+    s.params.radius = 6;
+    assert_render(instance, &s, &args);
+    wo_host_instance_destroy(&instance);
+    close_host(&host);
+}
+
+static void preferences_ask_for_linear_light(void **state)
+{
+    (void)state;
+    wo_host *host = open_host(1, 0);
+    reset_clips(1);
+    wo_host_instance *instance = create(host, "General", 1);
+    const wo_host_preferences *preferences = NULL;
+    int checked = 0;
+    for (int clip = 0; clip < PROBE_CLIPS; clip++)
+        connect(instance, clip);
+    assert_int_equal(wo_host_get_preferences(instance, &preferences, NULL), WO_OK);
+    assert_int_equal(preferences->alpha, WO_HOST_PREMULTIPLIED);
+    assert_false(preferences->frame_varying);
+    for (size_t i = 0; i < preferences->clip_count; i++) {
+        const wo_host_clip_preference *const clip = &preferences->clips[i];
+        if (strcmp(clip->clip, "Source") == 0) {
+            assert_int_equal(clip->colourspace_count, 2);
+            assert_string_equal(clip->colourspaces[0], "lin_rec709_srgb");
+            assert_string_equal(clip->colourspaces[1], "ofx_scene_linear");
+        } else if (strcmp(clip->clip, "Depth") == 0) {
+            assert_int_equal(clip->colourspace_count, 1);
+            assert_string_equal(clip->colourspaces[0], "ofx_raw");
+        } else {
+            assert_int_equal(clip->colourspace_count, 0);
+        }
+        if (strcmp(clip->clip, "Output") == 0)
+            assert_int_equal(clip->components, 4);
+        checked++;
+    }
+    assert_int_equal(checked, PROBE_CLIPS + 1);
+    wo_host_instance_destroy(&instance);
+    close_host(&host);
+}
+
+static void identity_costs_nothing(void **state)
+{
+    (void)state;
+    wo_host *host = open_host(1, 0);
+    reset_clips(1);
+    wo_host_instance *instance = create(host, "Filter", 1);
+    const setup s = default_setup();
+    const wo_host_render_args args = args_of(&s);
+    wo_image got = {.data = NULL};
+    wo_host_render_result result;
+    connect(instance, PROBE_SOURCE);
+    set(instance, "on", "false");
+    assert_int_equal(wo_host_render(instance, &args, &got, &result, NULL), WO_OK);
+    assert_true(result.identity);
+    assert_string_equal(result.identity_clip, "Source");
+    assert_int_equal(result.tiles, 0);
+    assert_true(wo_image_at(&got, 3, 5)[2] == noise_at(&clips[0], 3, 5, 2));
+    wo_host_image_free(&got);
+    wo_host_instance_destroy(&instance);
+    close_host(&host);
+}
+
+static void an_abort_ends_the_render_early(void **state)
+{
+    (void)state;
+    for (unsigned threads = 1; threads <= 4; threads += 3) {
+        wo_host *host = open_host(threads, 0);
+        reset_clips(1);
+        wo_host_instance *instance = create(host, "Filter", 1);
+        const setup s = default_setup();
+        const wo_host_render_args args = args_of(&s);
+        wo_image got = {.data = NULL};
+        connect(instance, PROBE_SOURCE);
+        set(instance, "trouble", "Wait"); /* for ever, but for the abort */
+        atomic_store(&watch.stop_after, atomic_load(&watch.polls) + 50);
+        assert_int_equal(wo_host_render(instance, &args, &got, NULL, NULL), WO_ABORTED);
+        assert_null(got.data);
+        assert_string_equal(wo_host_persistent_message(instance), "");
+
+        /* The instance is as good as before. */
+        atomic_store(&watch.stop_after, -1);
+        set(instance, "trouble", "No trouble");
+        setup after = default_setup();
+        after.connected[1] = after.connected[2] = false;
+        assert_render(instance, &after, &args);
+        wo_host_instance_destroy(&instance);
+        close_host(&host);
+    }
+}
+
+static void errors_are_shown_and_go_away(void **state)
+{
+    (void)state;
+    wo_host *host = open_host(2, 0);
+    reset_clips(1);
+    wo_host_instance *instance = create(host, "Filter", 1);
+    setup s = default_setup();
+    s.connected[1] = s.connected[2] = false;
+    wo_host_render_args args = args_of(&s);
+    args.tile_width = 20;
+    wo_image got = {.data = NULL};
+    wo_error error = {WO_OK, ""};
+    connect(instance, PROBE_SOURCE);
+    set(instance, "trouble", "Fail");
+    set(instance, "note", "of 100% kind");
+    assert_int_not_equal(wo_host_render(instance, &args, &got, NULL, &error), WO_OK);
+    assert_string_equal(wo_host_persistent_message(instance),
+                        "trouble was asked for: of 100% kind");
+    set(instance, "trouble", "No trouble");
+    assert_render(instance, &s, &args);
+    assert_string_equal(wo_host_persistent_message(instance), "");
+    wo_host_instance_destroy(&instance);
+    close_host(&host);
+}
+
+typedef struct published {
+    int plans, reports;
+    char text[4096];
+} published;
+
+static void keep(void *user, const char *kind, const char *text)
+{
+    published *const p = user;
+    p->plans += strcmp(kind, "plan") == 0;
+    p->reports += strcmp(kind, "report") == 0;
+    snprintf(p->text, sizeof p->text, "%s", text);
+}
+
+static void plans_and_reports_are_published(void **state)
+{
+    (void)state;
+    wo_host *host = open_host(2, 0);
+    reset_clips(2);
+    wo_host_instance *instance = create(host, "General", 2);
+    setup s = default_setup();
+    published p = {0, 0, ""};
+    s.aspect = 2;
+    s.scale[0] = s.scale[1] = 0.5;
+    s.connected[PROBE_MASK] = false;
+    wo_host_render_args args = args_of(&s);
+    args.report = WO_HOST_REPORT_RENDER;
+    args.report_user = &p;
+    args.publish = keep;
+    connect(instance, PROBE_SOURCE);
+    connect(instance, PROBE_DEPTH);
+    assert_render(instance, &s, &args);
+    assert_int_equal(p.reports, 1);
+    assert_int_equal(p.plans, 0);
+    assert_non_null(strstr(p.text, "\"pixels\": "));
+
+    wo_image got = {.data = NULL};
+    wo_error error = {WO_OK, ""};
+    args.report = WO_HOST_REPORT_EXPLAIN;
+    if (wo_host_render(instance, &args, &got, NULL, &error) != WO_OK)
+        fail_msg("%s", error.text);
+    wo_host_image_free(&got);
+    assert_int_equal(p.plans, 1);
+    assert_int_equal(p.reports, 1);
+    assert_non_null(strstr(p.text, "format=0,0,16,24\nextent=-2,2,16,20\n"));
+    assert_non_null(strstr(p.text, "scale=0.500000\nstretch=2.000000\n"));
+    assert_non_null(strstr(p.text, "connected=110\npixels=430\n"));
+    wo_host_instance_destroy(&instance);
+    close_host(&host);
+}
+
+typedef struct racer {
+    wo_host_instance *instance;
+    setup s;
+    wo_image wanted;
+    int wrong;
+} racer;
+
+static void *race(void *user)
+{
+    racer *const r = user;
+    const wo_host_render_args args = args_of(&r->s);
+    for (int round = 0; round < 10; round++) {
+        wo_image got = {.data = NULL};
+        r->wrong += wo_host_render(r->instance, &args, &got, NULL, NULL) != WO_OK;
+        for (int32_t y = r->wanted.bounds.y1; got.data && y < r->wanted.bounds.y2; y++)
+            r->wrong += memcmp(wo_image_at(&r->wanted, r->wanted.bounds.x1, y),
+                               wo_image_at(&got, r->wanted.bounds.x1, y),
+                               (size_t)wo_rect_width(r->wanted.bounds) * 16) != 0;
+        wo_host_image_free(&got);
+    }
+    return NULL;
+}
+
+static void two_instances_work_side_by_side(void **state)
+{
+    (void)state;
+    static const char *const radii[] = {"1", "5"};
+    wo_host *host = open_host(2, 0);
+    racer racers[2];
+    pthread_t threads[2];
+    reset_clips(1);
+    for (int i = 0; i < 2; i++) {
+        racers[i] = (racer){.instance = create(host, "General", 1), .s = default_setup()};
+        racers[i].s.params.radius = i ? 5 : 1;
+        for (int clip = 0; clip < PROBE_CLIPS; clip++)
+            connect(racers[i].instance, clip);
+        set(racers[i].instance, "radius", radii[i]);
+        racers[i].wanted = expected(&racers[i].s);
+    }
+    for (int i = 0; i < 2; i++)
+        assert_int_equal(pthread_create(&threads[i], NULL, race, &racers[i]), 0);
+    for (int i = 0; i < 2; i++) {
+        pthread_join(threads[i], NULL);
+        assert_int_equal(racers[i].wrong, 0);
+        free(racers[i].wanted.data);
+        wo_host_instance_destroy(&racers[i].instance);
+    }
+    close_host(&host);
+}
+
+static void unpremultiplied_sources_are_not_copied(void **state)
+{
+    (void)state;
+    wo_host *host = open_host(1, 0);
+    reset_clips(1);
+    wo_host_instance *instance = create(host, "Filter", 1);
+    const setup s = default_setup();
+    const wo_host_render_args args = args_of(&s);
+    wo_image got = {.data = NULL};
+    wo_host_render_result result;
+    wo_host_source source = source_of(&clips[0]);
+    source.alpha = WO_HOST_UNPREMULTIPLIED;
+    assert_int_equal(wo_host_set_clip(instance, "Source", &source, NULL), WO_OK);
+    set(instance, "on", "false");
+    set(instance, "radius", "0");
+    assert_int_equal(wo_host_render(instance, &args, &got, &result, NULL), WO_OK);
+    assert_false(result.identity);
+    const float *const pixel = wo_image_at(&got, 7, 9);
+    assert_true(fabsf(pixel[1] - noise_at(&clips[0], 7, 9, 1) * noise_at(&clips[0], 7, 9, 3)) <
+                1e-6f);
+    wo_host_image_free(&got);
+    wo_host_instance_destroy(&instance);
+    close_host(&host);
+}
+
+static void it_outlives_purging_and_syncing(void **state)
+{
+    (void)state;
+    wo_host *host = open_host(1, 0);
+    reset_clips(1);
+    wo_host_instance *instance = create(host, "Filter", 1);
+    assert_int_equal(wo_host_purge(instance, NULL), WO_OK);
+    assert_int_equal(wo_host_sync(instance, NULL), WO_OK);
+    wo_host_instance_destroy(&instance);
+    close_host(&host);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_description_is_the_table),
+        cmocka_unit_test(it_can_be_loaded_many_times),
+        cmocka_unit_test(optional_clips_may_be_missing),
+        cmocka_unit_test(a_source_without_pictures_is_black),
+        cmocka_unit_test(scales_aspects_layouts_and_tiles_agree),
+        cmocka_unit_test(parameters_reach_the_effect),
+        cmocka_unit_test(preferences_ask_for_linear_light),
+        cmocka_unit_test(identity_costs_nothing),
+        cmocka_unit_test(an_abort_ends_the_render_early),
+        cmocka_unit_test(errors_are_shown_and_go_away),
+        cmocka_unit_test(plans_and_reports_are_published),
+        cmocka_unit_test(two_instances_work_side_by_side),
+        cmocka_unit_test(unpremultiplied_sources_are_not_copied),
+        cmocka_unit_test(it_outlives_purging_and_syncing),
+    };
+    return cmocka_run_group_tests_name("glue under the strict host", tests, NULL, NULL);
+}
