@@ -117,6 +117,18 @@ wo_rect wo_ofx_to_pixels(const wo_ofx_action *action, OfxRectD region)
     return pixels_of(action, cut(region, wo_ofx_to_canonical(action, all)));
 }
 
+void wo_ofx_adopt_extent(wo_ofx_action *action, OfxPropertySetHandle image)
+{
+    int sides[4];
+    if (!wo_ofx_read_ints(action->suites, image, kOfxImagePropRegionOfDefinition, 4, sides))
+        return;
+    const wo_rect theirs = {sides[0], sides[1], sides[2], sides[3]};
+    const wo_rect ours = action->geometry.extent;
+    if (wo_rect_contains(wo_rect_grow(ours, 1, 1), theirs) &&
+        wo_rect_contains(theirs, wo_rect_grow(ours, -1, -1)) && !wo_rect_empty(theirs))
+        action->geometry.extent = theirs;
+}
+
 bool wo_ofx_clip_extent(const wo_ofx_action *action, size_t clip, wo_rect *extent)
 {
     OfxRectD region = {0, 0, 0, 0};

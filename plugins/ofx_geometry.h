@@ -18,6 +18,10 @@ void wo_ofx_read_geometry(wo_ofx_action *action);
    at Source's pixels. */
 wo_rect wo_ofx_to_pixels(const wo_ofx_action *action, OfxRectD region);
 
+/* Takes over how the host has rounded Source's region to pixels, if this image, the output, says
+ * so. */
+void wo_ofx_adopt_extent(wo_ofx_action *action, OfxPropertySetHandle image);
+
 /* Where a clip has pixels, cut likewise; false if the host does not say. */
 bool wo_ofx_clip_extent(const wo_ofx_action *action, size_t clip, wo_rect *extent);
 

@@ -84,11 +84,17 @@ static int32_t best_components(int32_t have, uint32_t accepted)
     return four ? 4 : three ? 3 : 1;
 }
 
+/* The part of a view inside a window, which its bounds hold. */
+static wo_image part_of(const wo_image *image, wo_rect window)
+{
+    return (wo_image){wo_image_at(image, window.x1, window.y1), window, image->row_bytes,
+                      image->components};
+}
+
 static wo_image borrowed(const wo_pixels *p, wo_rect window)
 {
     const wo_image whole = {p->data, p->bounds, p->row_bytes, p->components};
-    return (wo_image){wo_image_at(&whole, window.x1, window.y1), window, p->row_bytes,
-                      p->components};
+    return part_of(&whole, window);
 }
 
 /* Own memory for a view of the window. */
@@ -159,9 +165,64 @@ static bool suffices(const wo_ofx_action *action, size_t clip, const wo_ofx_imag
     return wo_rect_contains(wo_rect_grow(image->pixels.bounds, 1, 1), *wanted);
 }
 
-wo_status wo_ofx_open_input(wo_ofx_action *action, size_t clip, wo_rect needed, wo_ofx_image *image)
+/* Where a clip ends within the frame of Source there is nothing: no colour, no alpha, no mask. The
+   core repeats edges, which is right for Source and for data only; such clips get a border of
+   zeros. */
+static bool ends_inside(const wo_ofx_action *action, size_t clip, wo_rect seen)
+{
+    wo_rect extent;
+    return clip > 0 && !action->effect->clips[clip].data &&
+           wo_ofx_clip_extent(action, clip, &extent) && !wo_rect_contains(extent, seen);
+}
+
+/* A copy of what the image holds of the window, zero elsewhere. Where there is an alpha it tells
+   the picture from the border. */
+static wo_status copy_with_border(wo_ofx_action *action, size_t clip, wo_ofx_image *image,
+                                  wo_rect window)
 {
     const wo_clip *const about = &action->effect->clips[clip];
+    const bool alpha = about->components & WO_COMPONENT_RGBA && image->pixels.components != 1;
+    WO_TRY(own_view(action, about->name, image, window,
+                    alpha ? 4 : best_components(image->pixels.components, about->components)));
+    const wo_rect inside = wo_rect_intersect(window, image->pixels.bounds);
+    image->alpha = alpha_of(action, clip, image);
+    if (wo_rect_empty(inside))
+        return WO_OK;
+    const wo_image part = part_of(&image->view, inside);
+    wo_pixels_read(&image->pixels, &part);
+    if (part.components == 4 && image->alpha == WO_ALPHA_OPAQUE)
+        for (int32_t y = inside.y1; y < inside.y2; y++)
+            for (int32_t x = inside.x1; x < inside.x2; x++)
+                wo_image_at(&part, x, y)[3] = 1;
+    return WO_OK;
+}
+
+static wo_status make_view(wo_ofx_action *action, size_t clip, wo_rect needed, wo_ofx_image *image)
+{
+    const wo_clip *const about = &action->effect->clips[clip];
+    const wo_rect window = wo_ofx_visible(needed, image->pixels.bounds);
+    const wo_rect seen = wo_rect_intersect(needed, action->geometry.extent);
+
+    if (ends_inside(action, clip, seen)) {
+        const wo_rect held = wo_rect_intersect(needed, image->pixels.bounds);
+        WO_TRY(copy_with_border(action, clip, image, wo_rect_union(seen, held)));
+        if (image->alpha == WO_ALPHA_OPAQUE && image->view.components == 4)
+            image->alpha = WO_ALPHA_PREMULTIPLIED;
+        return WO_OK;
+    }
+    if (is_borrowable(&image->pixels, about->components)) {
+        image->view = borrowed(&image->pixels, window);
+    } else {
+        WO_TRY(own_view(action, about->name, image, window,
+                        best_components(image->pixels.components, about->components)));
+        wo_pixels_read(&image->pixels, &image->view);
+    }
+    image->alpha = alpha_of(action, clip, image);
+    return WO_OK;
+}
+
+wo_status wo_ofx_open_input(wo_ofx_action *action, size_t clip, wo_rect needed, wo_ofx_image *image)
+{
     *image = (wo_ofx_image){.handle = NULL};
     if (!action->geometry.connected[clip] || wo_rect_empty(needed))
         return WO_OK;
@@ -185,16 +246,8 @@ wo_status wo_ofx_open_input(wo_ofx_action *action, size_t clip, wo_rect needed, 
     if (!image->pixels.data)
         return WO_OK;
 
-    const wo_rect window = wo_ofx_visible(needed, image->pixels.bounds);
-    if (is_borrowable(&image->pixels, about->components)) {
-        image->view = borrowed(&image->pixels, window);
-    } else {
-        WO_TRY(own_view(action, about->name, image, window,
-                        best_components(image->pixels.components, about->components)));
-        wo_pixels_read(&image->pixels, &image->view);
-    }
-    image->alpha = alpha_of(action, clip, image);
-    return wo_image_validate(&image->view, about->name, &action->error);
+    WO_TRY(make_view(action, clip, needed, image));
+    return wo_image_validate(&image->view, action->effect->clips[clip].name, &action->error);
 }
 
 wo_status wo_ofx_open_output(wo_ofx_action *action, wo_rect *window, wo_ofx_image *image)

@@ -17,7 +17,9 @@ typedef struct wo_ofx_image {
 
 /* Opens what is there of an input clip inside needed. No image is no failure; one whose own
    properties make no sense is. The view is the host's memory where that holds floats the core can
-   take, which must not be written to; else a converted copy. Close after any outcome. */
+   take, which must not be written to; else a converted copy. Beyond the clip's own region colour
+   and masks are zero as far as Source reaches; Source itself and data are left to the core, which
+   repeats their edges. Close after any outcome. */
 WO_NODISCARD wo_status wo_ofx_open_input(wo_ofx_action *action, size_t clip, wo_rect needed,
                                          wo_ofx_image *image);
 

@@ -2,6 +2,7 @@
 /* Copyright the WideOpen authors */
 #include "ofx_render.h"
 
+#include "ofx_geometry.h"
 #include "ofx_images.h"
 #include "ofx_runner.h"
 
@@ -216,6 +217,15 @@ static wo_status render(wo_ofx_action *action, job *j)
         WO_TRY(wo_ofx_open_output(action, &j->window, &j->output));
         if (wo_rect_empty(j->window))
             return WO_OK;
+        wo_ofx_adopt_extent(action, j->output.handle);
+        /* Beside Source there is nothing, whatever the host wants to see there. */
+        if (!wo_rect_contains(action->geometry.extent, j->window))
+            wo_ofx_clear_output(&j->output);
+    }
+    j->window = wo_rect_intersect(j->window, action->geometry.extent);
+    if (wo_rect_empty(j->window)) {
+        wo_ofx_finish_output(&j->output);
+        return WO_OK;
     }
     WO_TRY(open_inputs(action, j));
     if (!j->views[0].data) {

@@ -194,7 +194,11 @@ static bool nothing_between(const wo_stack *stack, int32_t x, int32_t y, const w
 {
     const wo_rect r = {x < h->x ? x : h->x, y < h->y ? y : h->y, (x > h->x ? x : h->x) + 1,
                        (y > h->y ? y : h->y) + 1};
-    return wo_stack_bounds(stack, r).v_max <= v_same;
+    bool gaps = false;
+    for (int s = 0; s < stack->sheets; s++)
+        if (wo_stack_bounds(stack, s, r, &gaps).v_max > v_same)
+            return false;
+    return true;
 }
 
 int64_t wo_highlights_add(const wo_highlights *highlights, const wo_stack *stack,

@@ -25,36 +25,41 @@ static wo_rect tile_rect(int32_t tx, int32_t ty)
                      (ty + 1) * WO_TILE_HEIGHT};
 }
 
-static bool one_bit(uint16_t x)
-{
-    return x != 0 && (x & (x - 1)) == 0;
-}
-
-/* Bounds narrow the reach, the reach narrows the bounds (Lee et al. 2010, "Bounding the Footprint":
-   three rounds are enough). */
-static wo_ray_tile classify(const wo_lens_rays *rays, int32_t tx, int32_t ty, double reach)
+/* Bounds narrow the reach, the reach narrows the bounds, for each sheet by itself (Lee et al. 2010,
+   "Bounding the Footprint": three rounds are enough). */
+static wo_ray_tile classify(const wo_lens_rays *rays, int32_t tx, int32_t ty, double max_reach)
 {
     const wo_lens *lens = rays->lens;
     const wo_rect rect = tile_rect(tx, ty);
-    wo_cell bounds = {0};
-    for (int round = 0; round < 3; round++) {
-        const int32_t grow = (int32_t)ceil(reach) + WO_RAYS_MARGIN;
-        bounds = wo_stack_bounds(rays->stack, wo_rect_grow(rect, grow, grow));
-        if (bounds.some == 0)
-            return (wo_ray_tile){.class = WO_TILE_EMPTY};
-        reach = fmin(reach, lens->reach(lens->self, bounds.v_min, bounds.v_max));
+    wo_ray_tile tile = {.class = WO_TILE_EMPTY, .v_near = -INFINITY};
+    int sheets = 0;
+    bool gaps = false;
+    double spread = 0;
+    for (int s = 0; s < rays->stack->sheets; s++) {
+        double reach = max_reach;
+        wo_bounds *bounds = &tile.bounds[s];
+        for (int round = 0; round < 3; round++) {
+            const int32_t grow = (int32_t)ceil(reach) + WO_RAYS_MARGIN;
+            bool gap = false;
+            *bounds = wo_stack_bounds(rays->stack, s, wo_rect_grow(rect, grow, grow), &gap);
+            if (bounds->v_min > bounds->v_max)
+                break;
+            gaps = gap;
+            reach = fmin(reach, lens->reach(lens->self, bounds->v_min, bounds->v_max));
+        }
+        if (bounds->v_min > bounds->v_max)
+            continue;
+        sheets++;
+        spread = lens->px_per_dioptre * ((double)bounds->v_max - bounds->v_min);
+        tile.reach = fmaxf(tile.reach, (float)reach);
+        tile.v_near = fmaxf(tile.v_near, bounds->v_max);
     }
-    wo_ray_tile tile = {.class = WO_TILE_MARCH,
-                        .sheets = bounds.some,
-                        .v_near = bounds.v_max,
-                        .v_far = bounds.v_min,
-                        .reach = (float)reach};
-    const double spread = lens->px_per_dioptre * ((double)bounds.v_max - bounds.v_min);
-    tile.smooth = reach - spread < WO_SMOOTH_PX;
-    if (reach < WO_SHARP_PX)
+    if (sheets == 0)
+        return tile;
+    tile.class = WO_TILE_MARCH;
+    if (tile.reach < WO_SHARP_PX)
         tile.class = WO_TILE_SHARP;
-    else if (one_bit(bounds.some) && bounds.some == (bounds.some & bounds.full) &&
-             spread < WO_SINGLE_PX)
+    else if (sheets == 1 && !gaps && spread < WO_SINGLE_PX)
         tile.class = WO_TILE_SINGLE;
     return tile;
 }
@@ -109,15 +114,14 @@ const wo_ray_tile *wo_lens_rays_at(const wo_lens_rays *rays, int32_t tx, int32_t
 static wo_march_view view_of(const wo_lens_rays *rays, const wo_ray_tile *tile)
 {
     const wo_stack *stack = rays->stack;
-    wo_march_view view = {.run = stack->run,
+    wo_march_view view = {.opaque = stack->opaque,
+                          .run = stack->run,
                           .row = stack->row,
-                          .v_near = tile->v_near,
-                          .v_far = tile->v_far,
-                          .v_connect = (float)(WO_CONNECT_PX / rays->lens->px_per_dioptre),
-                          .smooth = tile->smooth};
+                          .v_connect = (float)(WO_CONNECT_PX / rays->lens->px_per_dioptre)};
     for (int s = 0; s < stack->sheets; s++) {
-        if (!(tile->sheets & 1u << s))
+        if (tile->bounds[s].v_min > tile->bounds[s].v_max)
             continue;
+        view.bounds[view.sheets] = tile->bounds[s];
         view.v[view.sheets] = stack->v[s];
         memcpy(view.c[view.sheets], stack->c[s], sizeof view.c[0]);
         view.guessed[view.sheets++] = stack->guessed[s];

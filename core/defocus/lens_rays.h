@@ -10,10 +10,9 @@
 /* The renderer of lens rays: a stack, a lens, a class for every tile; const once made. */
 typedef struct wo_ray_tile {
     wo_tile_class class;
-    bool smooth;
-    uint16_t sheets; /* bit s: sheet s has something in the footprint */
-    float v_near, v_far;
-    float reach; /* px */
+    float v_near; /* nearest surface of the footprint */
+    float reach;  /* px */
+    wo_bounds bounds[WO_SHEETS_MAX]; /* of each sheet over its footprint */
 } wo_ray_tile;
 
 typedef struct wo_lens_rays {
@@ -25,11 +24,9 @@ typedef struct wo_lens_rays {
     wo_ray_tile *tile;
 } wo_lens_rays;
 
-/* Below this radius a picture is sharp; below this difference of radius it has one depth; from this
-   radius on colours need no interpolation. All px. */
+/* Below this radius a picture is sharp; below this difference of radius it has one depth. px. */
 #define WO_SHARP_PX  0.05
 #define WO_SINGLE_PX 1.0
-#define WO_SMOOTH_PX 4.0
 
 /* px that a ray looks beyond its reach: interpolation and rounding. */
 #define WO_RAYS_MARGIN 3

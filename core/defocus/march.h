@@ -12,9 +12,12 @@
    pixel of its longer axis at a time, and looks at every sheet at once. The patch of a pixel is
    hit where the ray, at the patch's vergence, is within half a pixel of it, or where it passed from
    before to behind a surface that is connected (no step of more than WO_CONNECT_PX). The nearest
-   hit comes first; coverage below 1 lets the rest of the light through. A ray that ends behind
-   a surface which it never met saw something no sheet holds: it counts only as far as it was stopped. */
+   hit comes first; coverage below 1 lets the rest of the light through. Light that is left where the
+   scene is opaque saw something that no sheet holds: the ray counts only as far as it was stopped. */
 #define WO_CONNECT_PX 1.5f
+/* Up to so many px from the pixel itself, colours are interpolated between pixels; farther out the blur
+   hides the difference. */
+#define WO_SMOOTH_PX 2
 /* Light below this fraction is not followed further. */
 #define WO_LIGHT_MIN (1.0f / 1024)
 
@@ -24,10 +27,10 @@ typedef struct wo_march_view {
     const float *v[WO_SHEETS_MAX];
     const float *c[WO_SHEETS_MAX][4];
     bool guessed[WO_SHEETS_MAX];
+    const float *opaque; /* 1 where the scene as given lets no light through, else 0 */
     ptrdiff_t run, row;  /* of the stack */
-    float v_near, v_far; /* no surface of the footprint lies outside */
-    float v_connect;     /* dioptres: neighbours closer than this are one surface */
-    bool smooth;         /* interpolate colours between pixels; for blur of a few px */
+    wo_bounds bounds[WO_SHEETS_MAX]; /* of each sheet over the footprint of the tile */
+    float v_connect; /* dioptres: neighbours closer than this are one surface */
 } wo_march_view;
 
 /* Sums over a pencil, for the eight pixels of a vector. */

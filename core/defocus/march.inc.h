@@ -6,6 +6,7 @@
 
 #include "defocus/march.h"
 
+#include <limits.h>
 #include <math.h>
 
 /* Sums of so many rays are added up before they join the total, to keep rounding small. */
@@ -62,7 +63,10 @@ WO_SIMD void sample_smooth(const wo_march_view *view, int s, int32_t x, int32_t 
                       v_fma(half, tx, xx)};
     const vf wy[3] = {v_sub(yy, v_mul(half, ty)), v_sub(one, v_add(yy, yy)),
                       v_fma(half, ty, yy)};
-    const ptrdiff_t centre = place(view, x, y, run_index, dx, dy);
+    ptrdiff_t column[3];
+    for (int a = 0; a < 3; a++)
+        column[a] = place(view, x, y, run_index, dx + a - 1, dy);
+    const ptrdiff_t centre = column[1];
     const vf v = v_load(view->v[s] + centre);
     const vf limit = v_set(view->v_connect);
     vf own = v_mul(wx[1], wy[1]);
@@ -72,10 +76,9 @@ WO_SIMD void sample_smooth(const wo_march_view *view, int s, int32_t x, int32_t 
         for (int a = 0; a < 3; a++) {
             if (a == 1 && b == 1)
                 continue;
-            const ptrdiff_t at = place(view, x, y, run_index, dx + a - 1, dy + b - 1);
+            const ptrdiff_t at = column[a] + (b - 1) * view->row;
             const vf w = v_mul(wx[a], wy[b]);
-            const vm joined =
-                v_less_equal(v_abs(v_sub(v_load(view->v[s] + at), v)), limit);
+            const vm joined = v_less_equal(v_abs(v_sub(v_load(view->v[s] + at), v)), limit);
             const vf here = v_mask(joined, w);
             own = v_add(own, v_sub(w, here));
             for (int k = 0; k < 4; k++)
@@ -165,20 +168,29 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
 
     for (int n = 0; n < pencil->count; n++) {
         const line l = line_of(pencil, n);
-        const float s_near = l.am + l.bm * view->v_near;
-        const float s_far = l.am + l.bm * view->v_far;
-        const int dir = s_near >= s_far ? -1 : 1;
-        const int last = nearest(s_far);
+        /* From near to far, bm v falls or rises with the sign of bm; each sheet has its own part of
+           the way: no surface of it is met before or after. */
+        const int dir = l.bm >= 0 ? -1 : 1;
+        int from[WO_SHEETS_MAX];
+        int to[WO_SHEETS_MAX];
+        int first = INT_MAX;
+        int last = INT_MIN;
+        for (int s = 0; s < sheets; s++) {
+            from[s] = dir * nearest(l.am + l.bm * view->bounds[s].v_max);
+            to[s] = dir * nearest(l.am + l.bm * view->bounds[s].v_min);
+            first = from[s] < first ? from[s] : first;
+            last = to[s] > last ? to[s] : last;
+        }
         const vf bm = v_set(l.bm * (float)dir);
         rays r = {one, {v_set(0), v_set(0), v_set(0), v_set(0)}, v_set(0)};
         vm alive = m_set(-1);
         vf before[WO_SHEETS_MAX]; /* e of the step before: above 0.5 = in front */
-        vm met[WO_SHEETS_MAX];
-        for (int s = 0; s < sheets; s++) {
+        for (int s = 0; s < sheets; s++)
             before[s] = v_set(NAN);
-            met[s] = m_set(0);
-        }
-        for (int i = nearest(s_near);; i += dir) {
+        int next = first;
+        for (int step = first; step <= last; step = next) {
+            const int i = dir * step;
+            next = INT_MAX;
             const int j = nearest(l.n0 + l.slope * (float)i);
             const int dx = l.upright ? j : i;
             const int dy = l.upright ? i : j;
@@ -186,8 +198,17 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
             const vf origin = v_set((l.am - (float)i) * (float)dir);
             hit hits[WO_SHEETS_MAX];
             int count = 0;
-            steps += sheets;
+            const int smooth = i <= WO_SMOOTH_PX && i >= -WO_SMOOTH_PX;
             for (int s = 0; s < sheets; s++) {
+                if (step < from[s] || step >= to[s]) {
+                    if (step < from[s])
+                        next = from[s] < next ? from[s] : next;
+                    if (step != to[s])
+                        continue;
+                } else {
+                    next = step + 1;
+                }
+                steps++;
                 const vf v = v_load(view->v[s] + at);
                 const vf e = v_fma(bm, v, origin);
                 const vf e0 = before[s];
@@ -198,12 +219,11 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
                 m = m_and(m_or(m, crossed), alive);
                 if (!m_any(m))
                     continue;
-                met[s] = m_or(met[s], m);
                 hit *h = &hits[count++];
                 h->mask = m;
                 h->v = v;
                 h->sheet = s;
-                if (!view->smooth) {
+                if (!smooth) {
                     for (int k = 0; k < 4; k++)
                         h->c[k] = v_load(view->c[s][k] + at);
                     continue;
@@ -228,19 +248,19 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
                 if (!m_any(alive))
                     break;
             }
-            if (i == last)
-                break;
         }
-        /* Behind a surface it never met: what it saw is unknown. */
-        vf weight = one;
+        const vf left = r.light;
+        vm ends = m_except(m_set(-1), alive);
         if (m_any(alive)) {
-            vm lost = m_set(0);
-            for (int s = 0; s < sheets; s++)
-                lost = m_or(lost, m_except(v_less(before[s], minus_half), met[s]));
-            lost = m_and(lost, alive);
-            weight = v_select(lost, v_sub(one, r.light), one);
-            r.guessed = v_select(lost, one, r.guessed);
+            const int j = nearest(l.n0 + l.slope * (float)(dir * last));
+            const int dx = l.upright ? j : dir * last;
+            const int dy = l.upright ? dir * last : j;
+            const vm lost = m_and(
+                v_less(half, v_load(view->opaque + place(view, x, y, run_index, dx, dy))), alive);
+            ends = m_or(ends, lost);
+            r.guessed = v_add(r.guessed, v_mask(lost, left));
         }
+        vf weight = v_select(ends, v_sub(one, left), one);
         if (pencil->weight) {
             const vf w = v_set(pencil->weight[n]);
             for (int k = 0; k < 4; k++)
@@ -269,7 +289,7 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
 static void single(const wo_march_view *view, int32_t x, int32_t y, int run_index,
                    const wo_pencil *pencil, wo_march_sums *sums)
 {
-    const float v_middle = 0.5f * (view->v_near + view->v_far);
+    const float v_middle = 0.5f * (view->bounds[0].v_min + view->bounds[0].v_max);
     vf total[5];
     vf chunk[5];
     for (int k = 0; k < 5; k++)
@@ -283,7 +303,7 @@ static void single(const wo_march_view *view, int32_t x, int32_t y, int run_inde
         const int dy = l.upright ? i : j;
         const ptrdiff_t at = place(view, x, y, run_index, dx, dy);
         vf c[4];
-        if (view->smooth) {
+        if (i <= WO_SMOOTH_PX && i >= -WO_SMOOTH_PX) {
             const vf t = v_fma(v_set(l.bm), v_load(view->v[0] + at), v_set(l.am - (float)i));
             const vf u = v_fma(v_set(l.slope), t, v_set(across - (float)j));
             if (l.upright)

@@ -23,6 +23,7 @@ wo_rect wo_stack_grid(wo_rect r)
 typedef struct pack_job {
     wo_stack *stack;
     const wo_sheet *sheets[WO_SHEETS_MAX];
+    const uint8_t *opaque;
     wo_rect extent;
 } pack_job;
 
@@ -44,6 +45,8 @@ static void pack_row(void *user, size_t index, unsigned worker)
             stack->v[s][to] = sheet->v[from + from_x];
             for (int k = 0; k < 4; k++)
                 stack->c[s][k][to] = sheet->c[from + from_x][k];
+            if (s == 0)
+                stack->opaque[to] = job->opaque[from + from_x];
         }
     }
 }
@@ -53,35 +56,32 @@ static void bound_row(void *user, size_t index, unsigned worker)
     (void)worker;
     const pack_job *job = user;
     const wo_stack *stack = job->stack;
-    const uint16_t all = (uint16_t)((1u << stack->sheets) - 1);
-    for (int32_t i = 0; i < stack->cell_columns; i++) {
-        wo_cell cell = {INFINITY, -INFINITY, 0, all};
-        for (int32_t p = 0; p < WO_CELL * WO_CELL; p++) {
-            const int32_t x = stack->area.x1 + i * WO_CELL + p % WO_CELL;
-            const int32_t y = stack->area.y1 + (int32_t)index * WO_CELL + p / WO_CELL;
-            const ptrdiff_t at = wo_stack_at(stack, x, y);
-            for (int s = 0; s < stack->sheets; s++) {
-                const float v = stack->v[s][at];
-                const uint16_t bit = (uint16_t)(1u << s);
-                if (isnan(v)) {
-                    cell.full &= (uint16_t)~bit;
-                    continue;
-                }
-                cell.some |= bit;
-                cell.v_min = fminf(cell.v_min, v);
-                cell.v_max = fmaxf(cell.v_max, v);
+    const size_t first = index * (size_t)stack->cell_columns;
+    for (int s = 0; s < stack->sheets; s++) {
+        for (int32_t i = 0; i < stack->cell_columns; i++) {
+            wo_bounds bounds = {INFINITY, -INFINITY};
+            bool gap = false;
+            for (int32_t p = 0; p < WO_CELL * WO_CELL; p++) {
+                const int32_t x = stack->area.x1 + i * WO_CELL + p % WO_CELL;
+                const int32_t y = stack->area.y1 + (int32_t)index * WO_CELL + p / WO_CELL;
+                const float v = stack->v[s][wo_stack_at(stack, x, y)];
+                gap |= isnan(v);
+                bounds.v_min = v < bounds.v_min ? v : bounds.v_min;
+                bounds.v_max = v > bounds.v_max ? v : bounds.v_max;
             }
+            stack->cells[s][first + (size_t)i] = bounds;
+            stack->gaps[s][first + (size_t)i] = gap;
         }
-        stack->cells[index * (size_t)stack->cell_columns + (size_t)i] = cell;
     }
 }
 
 wo_status wo_stack_create(const wo_context *context, const wo_sheet *sheets, size_t count,
-                          wo_rect area, wo_rect extent, wo_stack *stack, wo_error *error)
+                          const uint8_t *opaque, wo_rect area, wo_rect extent, wo_stack *stack,
+                          wo_error *error)
 {
     area = wo_stack_grid(area);
     *stack = (wo_stack){.area = area};
-    pack_job job = {.stack = stack, .extent = extent};
+    pack_job job = {.stack = stack, .opaque = opaque, .extent = extent};
     for (size_t s = 0; s < count && stack->sheets < WO_SHEETS_MAX; s++) {
         if (!sheets[s].any)
             continue;
@@ -93,24 +93,29 @@ wo_status wo_stack_create(const wo_context *context, const wo_sheet *sheets, siz
     stack->row = stack->run * WO_PHASES;
     stack->cell_columns = wo_rect_width(area) / WO_CELL;
     stack->cell_rows = wo_rect_height(area) / WO_CELL;
-    stack->cells = wo_new(context, error, (size_t)stack->cell_columns * (size_t)stack->cell_rows,
-                          sizeof *stack->cells);
-    if (!stack->cells)
-        return WO_ERR_NOMEM;
     if (stack->sheets > 0) {
         const size_t plane = (size_t)stack->row * h;
+        const size_t cells = (size_t)stack->cell_columns * (size_t)stack->cell_rows;
+        stack->cell_memory = wo_new(context, error, cells * (size_t)stack->sheets,
+                                    sizeof **stack->cells + sizeof **stack->gaps);
         stack->memory =
-            wo_new(context, error, plane, (size_t)stack->sheets * 5 * sizeof *stack->memory);
-        if (!stack->memory) {
+            wo_new(context, error, plane, ((size_t)stack->sheets * 5 + 1) * sizeof *stack->memory);
+        if (!stack->memory || !stack->cell_memory) {
             wo_stack_destroy(context, stack);
             return WO_ERR_NOMEM;
         }
         float *next = stack->memory;
+        stack->opaque = next;
+        next += plane;
+        wo_bounds *const bounds = stack->cell_memory;
+        bool *const gaps = (bool *)(bounds + cells * (size_t)stack->sheets);
         for (int s = 0; s < stack->sheets; s++) {
             stack->v[s] = next;
             for (int k = 0; k < 4; k++)
                 stack->c[s][k] = next + plane * (size_t)(k + 1);
             next += 5 * plane;
+            stack->cells[s] = bounds + cells * (size_t)s;
+            stack->gaps[s] = gaps + cells * (size_t)s;
         }
     }
     wo_run(context, pack_row, &job, h);
@@ -121,24 +126,24 @@ wo_status wo_stack_create(const wo_context *context, const wo_sheet *sheets, siz
 void wo_stack_destroy(const wo_context *context, wo_stack *stack)
 {
     wo_delete(context, stack->memory);
-    wo_delete(context, stack->cells);
+    wo_delete(context, stack->cell_memory);
     *stack = (wo_stack){0};
 }
 
-wo_cell wo_stack_bounds(const wo_stack *stack, wo_rect r)
+wo_bounds wo_stack_bounds(const wo_stack *stack, int sheet, wo_rect r, bool *gaps)
 {
-    wo_cell out = {INFINITY, -INFINITY, 0, UINT16_MAX};
+    wo_bounds out = {INFINITY, -INFINITY};
     const int32_t i1 = (r.x1 - stack->area.x1) / WO_CELL;
     const int32_t j1 = (r.y1 - stack->area.y1) / WO_CELL;
     const int32_t i2 = (r.x2 - 1 - stack->area.x1) / WO_CELL;
     const int32_t j2 = (r.y2 - 1 - stack->area.y1) / WO_CELL;
     for (int32_t j = j1; j <= j2; j++) {
-        const wo_cell *row = stack->cells + (ptrdiff_t)j * stack->cell_columns;
+        const wo_bounds *row = stack->cells[sheet] + (ptrdiff_t)j * stack->cell_columns;
+        const bool *gap = stack->gaps[sheet] + (ptrdiff_t)j * stack->cell_columns;
         for (int32_t i = i1; i <= i2; i++) {
             out.v_min = row[i].v_min < out.v_min ? row[i].v_min : out.v_min;
             out.v_max = row[i].v_max > out.v_max ? row[i].v_max : out.v_max;
-            out.some |= row[i].some;
-            out.full &= row[i].full;
+            *gaps |= gap[i];
         }
     }
     return out;

@@ -20,10 +20,10 @@
 #define WO_SHEETS_MAX  10
 #define WO_CELL        8 /* px, side of a cell of bounds */
 
-typedef struct wo_cell {
-    float v_min, v_max; /* over all sheets; v_min > v_max when there is nothing */
-    uint16_t some, full; /* bit s: sheet s has a surface at some pixel, at every pixel */
-} wo_cell;
+/* Bounds of one sheet over some pixels; v_min > v_max when it has no surface there. */
+typedef struct wo_bounds {
+    float v_min, v_max;
+} wo_bounds;
 
 typedef struct wo_stack {
     wo_rect area; /* x1 is a multiple of WO_BLOCK, y1 of WO_CELL */
@@ -33,9 +33,12 @@ typedef struct wo_stack {
     float *v[WO_SHEETS_MAX];
     float *c[WO_SHEETS_MAX][4];
     bool guessed[WO_SHEETS_MAX];
+    float *opaque; /* 1 where the scene as given is opaque, else 0 */
     float *memory;
     int32_t cell_columns, cell_rows;
-    wo_cell *cells;
+    wo_bounds *cells[WO_SHEETS_MAX]; /* [rows][columns] */
+    bool *gaps[WO_SHEETS_MAX];       /* [rows][columns] true = the sheet is empty somewhere */
+    void *cell_memory;
 } wo_stack;
 
 /* Place of pixel (x, y) in a plane. */
@@ -45,18 +48,19 @@ static inline ptrdiff_t wo_stack_at(const wo_stack *stack, int32_t x, int32_t y)
     return (y - stack->area.y1) * stack->row + (i & (WO_PHASES - 1)) * stack->run + i / WO_PHASES;
 }
 
-/* Packs the sheets that hold anything; area is grown to the grid. sheets must cover the part of area
-   inside extent; pixels outside repeat the nearest inside. */
+/* Packs the sheets that hold anything; area is grown to the grid. sheets, all of one area, must cover
+   the part of area inside extent; pixels outside repeat the nearest inside. opaque: a byte for each
+   pixel of the sheets' area. */
 WO_NODISCARD wo_status wo_stack_create(const wo_context *context, const wo_sheet *sheets,
-                                       size_t count, wo_rect area, wo_rect extent, wo_stack *stack,
-                                       wo_error *error);
+                                       size_t count, const uint8_t *opaque, wo_rect area,
+                                       wo_rect extent, wo_stack *stack, wo_error *error);
 void wo_stack_destroy(const wo_context *context, wo_stack *stack);
 
 /* Area that wo_stack_create makes of this one. */
 wo_rect wo_stack_grid(wo_rect area);
 
-/* Bounds over the cells that touch r, which must lie inside the area. Sheets of some are present
-   somewhere, those of full everywhere. */
-wo_cell wo_stack_bounds(const wo_stack *stack, wo_rect r);
+/* Bounds of a sheet over the cells that touch r, which must lie inside the area; *gaps becomes true when
+   the sheet is empty at some pixel of them. */
+wo_bounds wo_stack_bounds(const wo_stack *stack, int sheet, wo_rect r, bool *gaps);
 
 #endif

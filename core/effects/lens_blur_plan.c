@@ -61,6 +61,28 @@ static wo_status load_layers(const wo_plan *plan, const wo_plan_args *args, wo_r
     return WO_OK;
 }
 
+/* Where the layers as given let (almost) no light through. */
+#define OPAQUE_LEFT 1e-3f
+
+typedef struct opaque_job {
+    const wo_sheet *sheets;
+    size_t row;
+    uint8_t *opaque;
+} opaque_job;
+
+static void opaque_row(void *user, size_t index, unsigned worker)
+{
+    (void)worker;
+    const opaque_job *job = user;
+    for (size_t at = index * job->row; at < (index + 1) * job->row; at++) {
+        float left = 1;
+        for (int i = 0; i < WO_LENS_BLUR_LAYERS; i++)
+            if (job->sheets[i].any)
+                left *= 1 - job->sheets[i].c[at][3];
+        job->opaque[at] = left < OPAQUE_LEFT;
+    }
+}
+
 static void note_layers(wo_plan *plan, const wo_sheet sheets[SHEETS], int64_t split)
 {
     wo_report *report = &plan->report;
@@ -89,7 +111,15 @@ static wo_status build_scene(wo_plan *plan, const wo_plan_args *args, wo_error *
     wo_sheet_counts counts = {0};
     int64_t split = 0;
     double start = wo_seconds();
+    const size_t w = (size_t)wo_rect_width(area);
+    const size_t h = (size_t)wo_rect_height(area);
+    uint8_t *opaque = wo_new(context, error, w * h, sizeof *opaque);
+    if (!opaque)
+        return WO_ERR_NOMEM;
     wo_status status = load_layers(plan, args, area, sheets, &counts, error);
+    opaque_job job = {sheets, w, opaque};
+    if (status == WO_OK)
+        wo_run(context, opaque_row, &job, h);
     if (status == WO_OK && plan->setup.fill_levels > 0) {
         status = empty_sheet(context, area, &sheets[EDGES], error);
         for (int i = 0; status == WO_OK && i < WO_LENS_BLUR_LAYERS; i++)
@@ -109,7 +139,8 @@ static wo_status build_scene(wo_plan *plan, const wo_plan_args *args, wo_error *
     plan->report.seconds[WO_STAGE_INPUT] += wo_seconds() - start;
     start = wo_seconds();
     if (status == WO_OK)
-        status = wo_stack_create(context, sheets, SHEETS, areas.stack, extent, &plan->stack, error);
+        status = wo_stack_create(context, sheets, SHEETS, opaque, areas.stack, extent, &plan->stack,
+                                 error);
     plan->report.seconds[WO_STAGE_BOUNDS] += wo_seconds() - start;
     plan->report.sanitised_colour = counts.sanitised_colour;
     plan->report.sanitised_depth = counts.sanitised_depth;
@@ -118,6 +149,7 @@ static wo_status build_scene(wo_plan *plan, const wo_plan_args *args, wo_error *
     if (status == WO_OK)
         note_layers(plan, sheets, split);
     destroy_sheets(context, sheets);
+    wo_delete(context, opaque);
     return status;
 }
 

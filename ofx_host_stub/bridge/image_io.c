@@ -268,7 +268,7 @@ const wo_io_format *wo_io_format_of(const char *path)
         {"hdr", "hdr", true, true, WO_IO_SINGLE, false, false, true, false, false},
         {"tga", "targa", true, true, WO_IO_BYTE, true, false, false, true, true},
         {"bmp", "bmp", true, true, WO_IO_BYTE, true, false, false, false, false},
-        {"ppm", "pnm", true, true, WO_IO_BYTE, true, true, false, false, false},
+        {"ppm", "pnm", true, true, WO_IO_BYTE, true, false, false, false, false},
         {"cin", "cineon", true, false, WO_IO_AUTO, false, false, false, false, false},
         {"pgm", "pnm", true, false, WO_IO_AUTO, false, false, false, false, false},
         {"pnm", "pnm", true, false, WO_IO_AUTO, false, false, false, false, false},

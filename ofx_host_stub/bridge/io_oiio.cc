@@ -28,7 +28,8 @@ class Drain final : public OIIO::Filesystem::IOProxy
 {
 public:
     explicit Drain(const char *path, int fd) : IOProxy(path, Write), m_fd(fd) {}
-    const char *proxytype() const override { return "file"; }
+    /* "file" would have writers take this for a class with a FILE in it */
+    const char *proxytype() const override { return "descriptor"; }
     size_t write(const void *buffer, size_t size) override
     {
         const size_t done = pwrite(buffer, size, m_pos);
@@ -187,7 +188,8 @@ wo_status fill_head(wo_io_part *part, const char *path, const wo_io_format *form
     part->bits = bits_of(spec);
     part->is_float = spec.format.is_floating_point();
     for (const OIIO::ParamValue &value : spec.extra_attribs)
-        if (value.name() != "PixelAspectRatio" && value.name() != "oiio:subimagename")
+        if (value.name() != "PixelAspectRatio" && value.name() != "oiio:subimagename" &&
+            value.name() != "oiio:ColorSpace")
             WO_TRY(add_attribute(part, value, error));
     /* PNM files say nothing; the library makes them Rec.709, other programs write sRGB */
     const bool silent = !std::strcmp(format->library_name, "pnm");
@@ -272,8 +274,16 @@ wo_status read_file(const char *path, const wo_io_format *format, bool headers_o
 
 /* Writing. */
 
-/* The display window of the part, top row first, cut to channels, ready for the library. */
-std::vector<float> picture_of(const wo_io_part *part, int channels, bool integers)
+/* Clipped and rounded to one of the steps an integer format has; the library cuts 10 bits out of
+   16 without rounding. */
+float quantised(float value, float steps)
+{
+    return value >= 0.0f ? std::round(std::min(value, 1.0f) * steps) / steps : 0.0f;
+}
+
+/* The display window of the part, top row first, cut to channels, ready for the library. steps 0
+   leaves the values alone. */
+std::vector<float> picture_of(const wo_io_part *part, int channels, float steps)
 {
     const wo_rect window = part->display_window, data = part->data_window;
     const wo_rect seen = wo_rect_intersect(window, data);
@@ -294,7 +304,7 @@ std::vector<float> picture_of(const wo_io_part *part, int channels, bool integer
         for (int32_t x = seen.x1; x < seen.x2; x++, from += from_stride, to += to_stride)
             for (size_t c = 0; c < to_stride; c++) {
                 const float value = from[std::min(c, from_stride - 1)];
-                to[c] = !integers ? value : value >= 0.0f ? std::min(value, 1.0f) : 0.0f;
+                to[c] = steps > 0 ? quantised(value, steps) : value;
             }
     }
     return pixels;
@@ -353,8 +363,10 @@ wo_status write_file(const char *path, int fd, const wo_io_format *format, const
 {
     const int channels = channels_written(part, format);
     const OIIO::ImageSpec spec = spec_of(part, format, channels, depth);
-    const std::vector<float> pixels =
-        picture_of(part, channels, !spec.format.is_floating_point());
+    const float steps = spec.format.is_floating_point()
+                            ? 0.0f
+                            : static_cast<float>((1u << bits_of(spec)) - 1);
+    const std::vector<float> pixels = picture_of(part, channels, steps);
     Drain drain(path, fd);
     bool written = false;
     std::string words;

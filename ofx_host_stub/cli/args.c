@@ -57,7 +57,8 @@ static int add(wo_args *args, const wo_option *option, const char *value)
     return WO_EXIT_OK;
 }
 
-/* One word that starts with a dash; *next is the following word or NULL, *used says if it was eaten. */
+/* One word that starts with a dash; *next is the following word or NULL, *used says if it was
+   eaten. */
 static int read_option(wo_args *args, const char *word, const char *next, bool *used)
 {
     const wo_usage *const usage = args->usage;
@@ -78,8 +79,8 @@ static int read_option(wo_args *args, const char *word, const char *next, bool *
         return unknown_option(usage, word, length);
     if (!option->argument) {
         if (value)
-            return wo_usage_fault(usage->command, "%s takes no value, but got \"%s\"",
-                                  option->name, value);
+            return wo_usage_fault(usage->command, "%s takes no value, but got \"%s\"", option->name,
+                                  value);
         return add(args, option, NULL);
     }
     if (!value && next && strncmp(next, "--", 2) != 0) {
@@ -87,8 +88,8 @@ static int read_option(wo_args *args, const char *word, const char *next, bool *
         *used = true;
     }
     if (!value)
-        return wo_usage_fault(usage->command, "%s needs a value: %s %s", option->name,
-                              option->name, option->argument);
+        return wo_usage_fault(usage->command, "%s needs a value: %s %s", option->name, option->name,
+                              option->argument);
     return add(args, option, value);
 }
 
@@ -123,8 +124,7 @@ int wo_args_read(wo_args *args, const wo_usage *usage, int argc, char **argv)
             plain_only = true;
         } else {
             bool used = false;
-            const int code =
-                read_option(args, argv[i], i + 1 < argc ? argv[i + 1] : NULL, &used);
+            const int code = read_option(args, argv[i], i + 1 < argc ? argv[i + 1] : NULL, &used);
             if (code != WO_EXIT_OK)
                 return code;
             i += used;
@@ -180,10 +180,10 @@ void wo_print_wrapped(FILE *out, const char *text, int at, int indent)
 static void print_option(FILE *out, const wo_option *option)
 {
     char left[128];
-    const int length = snprintf(left, sizeof left, "  %s%s%s%s%s", option->shorter ? option->shorter : "",
-                                option->shorter ? ", " : "", option->name,
-                                option->argument ? " " : "",
-                                option->argument ? option->argument : "");
+    const int length =
+        snprintf(left, sizeof left, "  %s%s%s%s%s", option->shorter ? option->shorter : "",
+                 option->shorter ? ", " : "", option->name, option->argument ? " " : "",
+                 option->argument ? option->argument : "");
     fputs(left, out);
     const bool fits = length < HELP_COLUMN - 1;
     if (!fits)
@@ -294,8 +294,7 @@ static int edit_distance(const char *a, const char *b)
         int diagonal = row[0];
         row[0] = i;
         for (int j = 1; j <= m; j++) {
-            const bool same =
-                tolower((unsigned char)a[i - 1]) == tolower((unsigned char)b[j - 1]);
+            const bool same = tolower((unsigned char)a[i - 1]) == tolower((unsigned char)b[j - 1]);
             int best = diagonal + !same;
             diagonal = row[j];
             best = row[j] + 1 < best ? row[j] + 1 : best;
@@ -325,7 +324,8 @@ int wo_near_words(const char *word, const char *const *words, size_t count, char
     buffer[0] = '\0';
     for (size_t i = 0; i < count && used < size; i++)
         if (!hits || is_near(word, words[i])) {
-            const int length = snprintf(buffer + used, size - used, "%s%s", used ? ", " : "", words[i]);
+            const int length =
+                snprintf(buffer + used, size - used, "%s%s", used ? ", " : "", words[i]);
             used += length > 0 ? (size_t)length : 0;
         }
     return hits;

@@ -8,8 +8,8 @@
 #include <stdio.h>
 
 /* Command lines as tables. A command states its options in one array; parsing, --help and the texts
-   of mistakes come from it. "--name value", "--name=value", "-o value" and "-ovalue" are understood,
-   "--" ends the options, every command has --help. One thread per object. */
+   of mistakes come from it. "--name value", "--name=value", "-o value" and "-ovalue" are
+   understood, "--" ends the options, every command has --help. One thread per object. */
 
 typedef struct wo_option {
     const char *name;     /* "--threads" */
@@ -20,9 +20,9 @@ typedef struct wo_option {
 } wo_option;
 
 typedef struct wo_usage {
-    const char *command;  /* "render" */
-    const char *synopsis; /* what follows the command: "PLUGIN [options] -o FILE" */
-    const char *about;    /* a paragraph; line feeds start new ones */
+    const char *command;     /* "render" */
+    const char *synopsis;    /* what follows the command: "PLUGIN [options] -o FILE" */
+    const char *about;       /* a paragraph; line feeds start new ones */
     const char *positionals; /* names of the plain words, for mistakes: "PLUGIN" */
     int positionals_min, positionals_max;
     const wo_option *options; /* without --help */
@@ -39,11 +39,12 @@ typedef struct wo_args {
     struct wo_given {
         const wo_option *option;
         const char *value; /* NULL for a switch */
-    } *given;
+    } * given;
 } wo_args;
 
 /* Reads argv[1..]; argv stays borrowed until wo_args_free. Returns an exit code: WO_EXIT_OK, or
-   WO_EXIT_USAGE or WO_EXIT_FAILURE after printing why. wo_args_free takes what any of these left. */
+   WO_EXIT_USAGE or WO_EXIT_FAILURE after printing why. wo_args_free takes what any of these
+   left. */
 int wo_args_read(wo_args *args, const wo_usage *usage, int argc, char **argv) WO_NODISCARD;
 void wo_args_free(wo_args *args);
 
@@ -55,8 +56,8 @@ void wo_args_help(const wo_usage *usage, FILE *out);
 int wo_args_count(const wo_args *args, const char *name);
 const char *wo_args_value(const wo_args *args, const char *name, int i);
 
-/* Numbers: *value keeps what it holds when the option was not given. False after printing a mistake:
-   not a number, or outside min..max. */
+/* Numbers: *value keeps what it holds when the option was not given. False after printing a
+   mistake: not a number, or outside min..max. */
 bool wo_args_int(const wo_args *args, const char *name, int min, int max, int *value) WO_NODISCARD;
 bool wo_args_double(const wo_args *args, const char *name, double min, double max,
                     double *value) WO_NODISCARD;

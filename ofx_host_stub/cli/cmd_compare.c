@@ -28,13 +28,13 @@ static const wo_usage usage = {
     .command = "compare",
     .synopsis = "REF OUT [--json] [--crop N] [--diff FILE]",
     .about =
-        "Says how far OUT is from REF; both are FILE[:CHANNELS] and of one size. Red, green and blue "
-        "count, alpha does not.\n"
-        "relmse: mean of (out - ref)^2 / (ref^2 + 0.01). psnr: dB, values clipped to 0..1 and put on "
-        "the sRGB curve; psnr_lin: clipped only. ssim: of the luma of the former, 11 x 11 Gaussian of "
-        "sigma 1.5. max_error: largest absolute difference. energy: sum of OUT over sum of REF. "
-        "nonfinite: samples of OUT that are NaN or infinite; if there are any, the rest means nothing "
-        "and the exit code is 1.",
+        "Says how far OUT is from REF; both are FILE[:CHANNELS] and of one size. Red, green and "
+        "blue count, alpha does not.\n"
+        "relmse: mean of (out - ref)^2 / (ref^2 + 0.01). psnr: dB, values clipped to 0..1 and put "
+        "on the sRGB curve; psnr_lin: clipped only. ssim: of the luma of the former, 11 x 11 "
+        "Gaussian of sigma 1.5. max_error: largest absolute difference. energy: sum of OUT over "
+        "sum of REF. nonfinite: samples of OUT that are NaN or infinite; if there are any, the "
+        "rest means nothing and the exit code is 1.",
     .positionals = "REF OUT",
     .positionals_min = 2,
     .positionals_max = 2,

@@ -15,8 +15,8 @@ static const wo_option options[] = {
 static const wo_usage usage = {
     .command = "describe",
     .synopsis = "PLUGIN [--json] [--context NAME]",
-    .about = "Says what a plugin is: contexts, clips, parameters with their ranges and defaults. PLUGIN "
-             "is an identifier or its last part, as wideopen list prints them.",
+    .about = "Says what a plugin is: contexts, clips, parameters with their ranges and defaults. "
+             "PLUGIN is an identifier or its last part, as wideopen list prints them.",
     .positionals = "PLUGIN",
     .positionals_min = 1,
     .positionals_max = 1,

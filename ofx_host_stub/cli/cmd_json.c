@@ -11,10 +11,10 @@
 static const wo_usage usage = {
     .command = "json",
     .synopsis = "FILE [PATH ...]",
-    .about = "Checks that FILE (\"-\": standard input) is one JSON value and prints the values at the "
-             "paths on one line with tabs between them, so that scripts need no other tool. A path is "
-             "keys and array indices joined by dots; \"-\" is printed where there is no such value. "
-             "Strings are printed without their quotes.",
+    .about = "Checks that FILE (\"-\": standard input) is one JSON value and prints the values at "
+             "the paths on one line with tabs between them, so that scripts need no other tool. A "
+             "path is keys and array indices joined by dots; \"-\" is printed where there is no "
+             "such value. Strings are printed without their quotes.",
     .positionals = "FILE",
     .positionals_min = 1,
     .positionals_max = 64,

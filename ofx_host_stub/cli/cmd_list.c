@@ -13,8 +13,8 @@ static const wo_option options[] = {
 static const wo_usage usage = {
     .command = "list",
     .synopsis = "[--json] [--plugin-path DIR]",
-    .about = "Lists every plugin that is found: identifier, version, label and contexts. Of two with "
-             "one identifier the first found wins, unless the other is newer.",
+    .about = "Lists every plugin that is found: identifier, version, label and contexts. Of two "
+             "with one identifier the first found wins, unless the other is newer.",
     .options = options,
     .option_count = WO_COUNT(options),
 };

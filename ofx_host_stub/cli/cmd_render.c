@@ -10,16 +10,16 @@
 
 static const wo_option options[] = {
     {"--clip", NULL, "NAME=FILE[:CHANNELS]",
-     "Connect a clip. FILE may be a sequence (%04d or ####). CHANNELS picks channels, a layer or a part "
-     "of the file: Z, R,G,B, diffuse, layer2, layer2:Z.",
+     "Connect a clip. FILE may be a sequence (%04d or ####). CHANNELS picks channels, a layer or "
+     "a part of the file: Z, R,G,B, diffuse, layer2, layer2:Z.",
      true},
     {"--set", NULL, "NAME=VALUE",
-     "Set a parameter: a number, x,y, r,g,b, true, the name of a choice. NAME=@1:2.8,@25:16 sets keys "
-     "at frames, straight lines between them.",
+     "Set a parameter: a number, x,y, r,g,b, true, the name of a choice. NAME=@1:2.8,@25:16 sets "
+     "keys at frames, straight lines between them.",
      true},
     {"--output", "-o", "FILE",
-     "Where the picture goes: exr png tif tiff jpg dpx hdr tga bmp ppm. It appears under this name only "
-     "when it is complete.",
+     "Where the picture goes: exr png tif tiff jpg dpx hdr tga bmp ppm. It appears under this "
+     "name only when it is complete.",
      false},
     {"--frames", NULL, "LIST", "Frames: 12, 1001-1100, 1-100x2, several joined by commas.", false},
     {"--context", NULL, "NAME",
@@ -36,7 +36,8 @@ static const wo_option options[] = {
      "depth and other numbers are never converted.",
      false},
     {"--out-space", NULL, "NAME",
-     "Colour space of the output; otherwise by the rules of the configuration for its name.", false},
+     "Colour space of the output; otherwise by the rules of the configuration for its name.",
+     false},
     {"--ocio", NULL, "FILE",
      "OpenColorIO configuration; otherwise that of the variable OCIO, otherwise WideOpen's own.",
      false},
@@ -44,15 +45,15 @@ static const wo_option options[] = {
     {"--bits", NULL, "KIND",
      "Samples of the output: auto, 8, 16, half or float; auto is half in EXR.", false},
     {"--no-metadata", NULL, NULL,
-     "Do not take focalLength, sensorWidth, fStop and focusDistance from the wideopen: attributes of "
-     "Source. What --set says always wins.",
+     "Do not take focalLength, sensorWidth, fStop and focusDistance from the wideopen: attributes "
+     "of Source. What --set says always wins.",
      false},
     {"--explain", NULL, NULL, "Print what would be done, on stdout, and render nothing.", false},
     {"--report", NULL, "FILE", "Write what was done and what it cost, as JSON.", false},
     {"--json", NULL, NULL, "Print the same JSON on stdout.", false},
     {"--strict", NULL, NULL,
-     "Guard the plugin's memory, and end with code 1 when it breaks the rules of OpenFX. Breaches are "
-     "always printed.",
+     "Guard the plugin's memory, and end with code 1 when it breaks the rules of OpenFX. Breaches "
+     "are always printed.",
      false},
     {"--progress", NULL, NULL, "Draw the progress bar even when stderr is no terminal.", false},
     {"--no-progress", NULL, NULL, "Draw no progress bar.", false},
@@ -66,9 +67,9 @@ static const wo_usage usage = {
     .about =
         "Runs a plugin on image files. PLUGIN is an identifier or its last part; wideopen render "
         "PLUGIN --help lists its clips and parameters, too.\n"
-        "The display window of Source is the project, its data window the region of definition; its "
-        "attributes are carried to the output. The plugin sees scene-linear Rec.709. An interrupt "
-        "(Ctrl-C) stops the render, removes what is half written and ends with code 130.",
+        "The display window of Source is the project, its data window the region of definition; "
+        "its attributes are carried to the output. The plugin sees scene-linear Rec.709. An "
+        "interrupt (Ctrl-C) stops the render, removes what is half written and ends with code 130.",
     .positionals = "PLUGIN",
     .positionals_min = 1,
     .positionals_max = 1,
@@ -81,7 +82,7 @@ static const wo_usage usage = {
              "      --frames 1001-1100 --set focusDistance=@1001:2,@1100:8 -o out.####.exr\n",
 };
 
-/* ----------------------------------------------------------------------- reading the command line */
+/* --------------------------------------------------------------------- reading the command line */
 
 static int read_window(wo_render_job *job)
 {
@@ -112,7 +113,8 @@ static int read_bits(wo_render_job *job)
             job->output.depth = depths[i];
             return WO_EXIT_OK;
         }
-    return wo_usage_fault("render", "--bits is \"%s\", but must be auto, 8, 16, half or float", text);
+    return wo_usage_fault("render", "--bits is \"%s\", but must be auto, 8, 16, half or float",
+                          text);
 }
 
 static int read_numbers(wo_render_job *job)
@@ -176,14 +178,12 @@ static int read_job(wo_render_job *job)
     return code == WO_EXIT_OK ? read_frames(job) : code;
 }
 
-/* ------------------------------------------------------------------------------------- the plugin */
+/* ----------------------------------------------------------------------------------- the plugin */
 
 static int open_plugin(wo_render_job *job)
 {
-    wo_host_config config = {.background = true,
-                             .user = job,
-                             .progress = wo_render_progress,
-                             .aborted = wo_interrupted};
+    wo_host_config config = {
+        .background = true, .user = job, .progress = wo_render_progress, .aborted = wo_interrupted};
     int threads = 0;
     if (!wo_args_int(job->args, "--threads", 1, 1024, &threads))
         return WO_EXIT_USAGE;
@@ -196,8 +196,8 @@ static int open_plugin(wo_render_job *job)
         wo_session_notes(job->host);
     job->plugin = wo_session_plugin(job->host, job->args->positionals[0]);
     if (job->plugin)
-        job->context = wo_session_context(job->plugin, wo_args_value(job->args, "--context", 0),
-                                          "render");
+        job->context =
+            wo_session_context(job->plugin, wo_args_value(job->args, "--context", 0), "render");
     return job->context ? WO_EXIT_OK : WO_EXIT_USAGE;
 }
 
@@ -216,7 +216,7 @@ static int print_help(wo_render_job *job)
     return WO_EXIT_OK;
 }
 
-/* ---------------------------------------------------------------------------------------- the clips */
+/* ------------------------------------------------------------------------------------ the clips */
 
 static int unknown_clip(const wo_render_job *job, const char *name)
 {
@@ -290,7 +290,7 @@ static int open_files(wo_render_job *job)
     return add_clips(job);
 }
 
-/* ------------------------------------------------------------------------------------- the instance */
+/* --------------------------------------------------------------------------------- the instance */
 
 static void choose_project(wo_render_job *job)
 {
@@ -301,9 +301,8 @@ static void choose_project(wo_render_job *job)
         return;
     const wo_io_part *const header = wo_input_header(main);
     job->project = header->display_window;
-    job->pixel_aspect = isfinite(header->pixel_aspect) && header->pixel_aspect > 0
-                            ? header->pixel_aspect
-                            : 1;
+    job->pixel_aspect =
+        isfinite(header->pixel_aspect) && header->pixel_aspect > 0 ? header->pixel_aspect : 1;
 }
 
 static wo_status connect_clips(wo_render_job *job, wo_error *error)
@@ -411,7 +410,7 @@ static int set_param(wo_render_job *job, const char *text)
                                   : wo_usage_fault("render", "--set %s: %s", text, error.text);
 }
 
-/* ----------------------------------------------------------------------------------------- the run */
+/* -------------------------------------------------------------------------------------- the run */
 
 static int write_reports(wo_render_job *job, const wo_error *failed)
 {
@@ -419,8 +418,7 @@ static int write_reports(wo_render_job *job, const wo_error *failed)
     wo_error error = {0};
     if (wo_args_count(job->args, "--json"))
         wo_record_write(&job->record, job->host, job->inputs, failed, stdout);
-    if (path &&
-        wo_record_save(&job->record, job->host, job->inputs, failed, path, &error) != WO_OK)
+    if (path && wo_record_save(&job->record, job->host, job->inputs, failed, path, &error) != WO_OK)
         return wo_failure(&error);
     return WO_EXIT_OK;
 }
@@ -431,7 +429,8 @@ static int render_all(wo_render_job *job)
     int code = WO_EXIT_OK;
     if (wo_render_frames(job, &error) != WO_OK)
         code = wo_failure(&error);
-    if (!job->record.plugin && !wo_record_begin(&job->record, job->instance, job->frames.numbers[0]))
+    if (!job->record.plugin &&
+        !wo_record_begin(&job->record, job->instance, job->frames.numbers[0]))
         return WO_EXIT_FAILURE;
     wo_host_instance_destroy(&job->instance); /* what it leaks becomes violations */
     for (size_t i = 0; i < wo_host_violation_count(job->host); i++)

@@ -24,8 +24,8 @@ static const wo_option options[] = {
 static const wo_usage usage = {
     .command = "sheet",
     .synopsis = "CAPTION=FILE ... -o FILE",
-    .about = "Puts pictures side by side, each under the first shape's size, with captions below. A | "
-             "in a caption starts its second line. FILE is FILE[:CHANNELS].",
+    .about = "Puts pictures side by side, each under the first shape's size, with captions below. "
+             "A | in a caption starts its second line. FILE is FILE[:CHANNELS].",
     .positionals = "CAPTION=FILE",
     .positionals_min = 1,
     .positionals_max = CELLS_MAX,

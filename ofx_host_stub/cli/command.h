@@ -10,14 +10,14 @@
 /* What a command returns: the exit code of the program. */
 enum {
     WO_EXIT_OK = 0,
-    WO_EXIT_FAILURE = 1,     /* a render or a file failed */
-    WO_EXIT_USAGE = 2,       /* the command line makes no sense */
+    WO_EXIT_FAILURE = 1,      /* a render or a file failed */
+    WO_EXIT_USAGE = 2,        /* the command line makes no sense */
     WO_EXIT_INTERRUPTED = 130 /* stopped by an interrupt; half-written files are removed */
 };
 
 typedef struct wo_command {
-    const char *name;    /* first word of the command line */
-    const char *summary; /* one line for the list of commands */
+    const char *name;                  /* first word of the command line */
+    const char *summary;               /* one line for the list of commands */
     int (*run)(int argc, char **argv); /* argv[0] is the name; returns an exit code */
 } wo_command;
 
@@ -29,13 +29,16 @@ int wo_cmd_compare(int argc, char **argv);
 int wo_cmd_sheet(int argc, char **argv);
 int wo_cmd_json(int argc, char **argv);
 
-/* One line on stderr, with the program's name before it; data goes to stdout by printf. Any thread. */
+/* One line on stderr, with the program's name before it; data goes to stdout by printf. Any
+   thread. */
 void wo_message(const char *format, ...) WO_PRINTF(1, 2);
 
-/* The same for a mistake on the command line of command; points to its --help; gives WO_EXIT_USAGE. */
+/* The same for a mistake on the command line of command; points to its --help; gives
+   WO_EXIT_USAGE. */
 int wo_usage_fault(const char *command, const char *format, ...) WO_PRINTF(2, 3);
 
-/* Prints error->text as a message; gives WO_EXIT_FAILURE, or WO_EXIT_INTERRUPTED after an interrupt. */
+/* Prints error->text as a message; gives WO_EXIT_FAILURE, or WO_EXIT_INTERRUPTED after an
+   interrupt. */
 int wo_failure(const wo_error *error);
 
 /* From the first call on, SIGINT and SIGTERM set a flag instead of ending the program; a second one
@@ -45,8 +48,8 @@ void wo_interrupt_catch(void);
 /* True after an interrupt. user is ignored, so that it fits every abort callback. Any thread. */
 bool wo_interrupted(void *user);
 
-/* A bar on stderr, drawn by wo_bar_move (fraction 0..1) and only when shown is true; wo_bar_end erases
-   it. One call at a time. */
+/* A bar on stderr, drawn by wo_bar_move (fraction 0..1) and only when shown is true; wo_bar_end
+   erases it. One call at a time. */
 typedef struct wo_bar {
     bool shown;
     int permille; /* what is drawn, -1 = nothing */
@@ -56,7 +59,8 @@ void wo_bar_begin(wo_bar *bar, bool shown, const char *label);
 void wo_bar_move(wo_bar *bar, double fraction);
 void wo_bar_end(wo_bar *bar);
 
-/* What --progress and --no-progress mean: forced on, forced off, else on when stderr is a terminal. */
+/* What --progress and --no-progress mean: forced on, forced off, else on when stderr is a
+   terminal. */
 bool wo_bar_wanted(bool forced, bool forbidden);
 
 #endif

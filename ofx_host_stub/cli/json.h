@@ -38,9 +38,9 @@ void wo_json_raw(wo_json *json, const char *key, const char *text);
 /* True for exactly one JSON value with blanks around it, nested at most 64 deep. */
 bool wo_json_valid(const char *text);
 
-/* Finds a value by path: keys and array indices joined by dots, "frames.0.rays"; "" is the whole text.
-   *begin and *length say where it stands in text; false when there is no such value. text must be
-   valid. */
+/* Finds a value by path: keys and array indices joined by dots, "frames.0.rays"; "" is the whole
+   text. *begin and *length say where it stands in text; false when there is no such value. text
+   must be valid. */
 bool wo_json_find(const char *text, const char *path, const char **begin, size_t *length);
 
 #endif

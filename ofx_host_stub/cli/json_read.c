@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Each skip_ function takes the start of something and gives its end, or NULL when it is malformed. */
+/* Each skip_ function takes the start of something and gives its end, or NULL when it is
+   malformed. */
 
 enum { DEPTH_MAX = 64 };
 

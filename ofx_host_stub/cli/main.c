@@ -23,10 +23,12 @@ static void print_help(FILE *out)
           out);
     for (size_t i = 0; i < WO_COUNT(commands); i++)
         fprintf(out, "  %-10s %s\n", commands[i].name, commands[i].summary);
-    fputs("\nPlugins are looked for in --plugin-path, in OFX_PLUGIN_PATH and in the folder Plugins\n"
-          "beside this program. Exit code: 0 done, 1 a render or a file failed, 2 the command line\n"
-          "makes no sense, 130 interrupted. Messages go to stderr, data to stdout.\n",
-          out);
+    fputs(
+        "\nPlugins are looked for in --plugin-path, in OFX_PLUGIN_PATH and in the folder Plugins\n"
+        "beside this program. Exit code: 0 done, 1 a render or a file failed, 2 the command "
+        "line\n"
+        "makes no sense, 130 interrupted. Messages go to stderr, data to stdout.\n",
+        out);
 }
 
 int main(int argc, char **argv)

@@ -108,8 +108,7 @@ wo_status wo_picture_save(const char *path, const wo_image *image, wo_error *err
 {
     static const char *const names[] = {"R", "G", "B"};
     wo_io_part part = {0};
-    wo_status status =
-        wo_io_part_init(&part, NULL, image->bounds, image->bounds, names, 3, error);
+    wo_status status = wo_io_part_init(&part, NULL, image->bounds, image->bounds, names, 3, error);
     if (status == WO_OK) {
         const size_t row = (size_t)wo_rect_width(image->bounds) * 3;
         for (int y = image->bounds.y1; y < image->bounds.y2; y++)

@@ -8,8 +8,8 @@
 
 /* Pictures as the command line names them: "FILE[:CHANNELS]". */
 
-/* Splits text; a colon may be part of the file's name: the shortest part before a colon that is a file
-   (at frame, for sequences) wins, then the whole; when nothing is, the first colon splits.
+/* Splits text; a colon may be part of the file's name: the shortest part before a colon that is a
+   file (at frame, for sequences) wins, then the whole; when nothing is, the first colon splits.
    *file and *channels are malloc-ed, NULL after a failure. */
 WO_NODISCARD wo_status wo_picture_split(const char *text, int frame, char **file, char **channels,
                                         wo_error *error);
@@ -17,14 +17,15 @@ WO_NODISCARD wo_status wo_picture_split(const char *text, int frame, char **file
 /* Is there a file at this frame? */
 bool wo_picture_exists(const char *pattern, int frame);
 
-/* Brings an image of a file's part from space to linear light, colour multiplied by alpha. A grey one
-   becomes RGB, so that it can be converted; its memory may move. */
+/* Brings an image of a file's part from space to linear light, colour multiplied by alpha. A grey
+   one becomes RGB, so that it can be converted; its memory may move. */
 WO_NODISCARD wo_status wo_picture_linear(const wo_colour *colour, const wo_io_part *part,
                                          const char *space, wo_image *image, wo_error *error);
 
-/* Reads "FILE[:CHANNELS]" as linear light; space NULL: by the file's rules. image->data is malloc-ed. */
-WO_NODISCARD wo_status wo_picture_load(const wo_colour *colour, const char *space,
-                                       const char *text, wo_image *image, wo_error *error);
+/* Reads "FILE[:CHANNELS]" as linear light; space NULL: by the file's rules. image->data is
+   malloc-ed. */
+WO_NODISCARD wo_status wo_picture_load(const wo_colour *colour, const char *space, const char *text,
+                                       wo_image *image, wo_error *error);
 
 /* Saves RGB values of 0..1 as they are, 8 bits where the format has them. */
 WO_NODISCARD wo_status wo_picture_save(const char *path, const wo_image *image, wo_error *error);

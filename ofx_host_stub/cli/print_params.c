@@ -15,9 +15,8 @@ void wo_print_clips(FILE *out, const wo_host_context_info *context)
                 clip->components & WO_HOST_RGBA ? "RGBA " : "",
                 clip->components & WO_HOST_RGB ? "RGB " : "",
                 clip->components & WO_HOST_ALPHA ? "one channel " : "",
-                clip->output ? "(output) " : "",
-                clip->optional ? "(optional) " : "", clip->mask ? "(matte) " : "",
-                clip->temporal ? "(other frames too) " : "");
+                clip->output ? "(output) " : "", clip->optional ? "(optional) " : "",
+                clip->mask ? "(matte) " : "", clip->temporal ? "(other frames too) " : "");
         fprintf(out, "%s\n", clip->label && strcmp(clip->label, clip->name) ? clip->label : "");
     }
 }
@@ -71,8 +70,8 @@ static void print_param(FILE *out, const wo_host_param_info *param)
     fprintf(out, "%s%s%s", fits ? "" : " ", param->label,
             param->label && *param->label ? ": " : "");
     fputs(wo_host_param_type_text(param->kind), out);
-    const bool ranged = param->kind != WO_HOST_PARAM_BOOLEAN && param->dimension > 0 &&
-                        param->choice_count == 0;
+    const bool ranged =
+        param->kind != WO_HOST_PARAM_BOOLEAN && param->dimension > 0 && param->choice_count == 0;
     if (ranged)
         print_range(out, param->min[0], param->max[0]);
     print_choices(out, param);

@@ -37,8 +37,8 @@ struct wo_input {
     const picture *present;
 };
 
-/* A file with its pixels, kept while the clips of one frame are read: several clips often lie in one
-   multi-part file. */
+/* A file with its pixels, kept while the clips of one frame are read: several clips often lie in
+   one multi-part file. */
 typedef struct open_file {
     char path[PATH_MAX];
     wo_io_file *file;
@@ -109,7 +109,7 @@ void wo_inputs_destroy(wo_inputs **inputs)
     *inputs = NULL;
 }
 
-/* ------------------------------------------------------------------------------- reading files */
+/* -------------------------------------------------------------------------------- reading files */
 
 static wo_status open_cached(wo_inputs *inputs, const char *path, const wo_io_file **file,
                              wo_error *error)
@@ -196,7 +196,7 @@ static wo_status fetch(wo_input *input, int frame, picture **found, wo_error *er
     return WO_OK;
 }
 
-/* --------------------------------------------------------------------------------- the clips */
+/* ------------------------------------------------------------------------------------ the clips */
 
 /* Does the part have a vector's channel, "layer.X"? */
 static bool has_vector(const wo_io_part *part, const char *layer)
@@ -339,11 +339,6 @@ const char *wo_input_space(const wo_input *input)
     return input->raw ? "raw" : input->space;
 }
 
-bool wo_input_is_sequence(const wo_input *input)
-{
-    return input->sequence;
-}
-
 bool wo_input_is_raw(const wo_input *input)
 {
     return input->raw;
@@ -359,7 +354,7 @@ const wo_io_part *wo_input_header(const wo_input *input)
     return &input->present->file->parts[input->present->part];
 }
 
-/* ------------------------------------------------------------------------------- the host's side */
+/* ------------------------------------------------------------------------------ the host's side */
 
 static double aspect_of(const picture *p)
 {
@@ -367,7 +362,8 @@ static double aspect_of(const picture *p)
     return isfinite(aspect) && aspect > 0 ? aspect : 1;
 }
 
-/* The linear picture at a time; the lock is held. A frame that is not on the disk is WO_ERR_NOT_FOUND. */
+/* The linear picture at a time; the lock is held. A frame that is not on the disk is
+   WO_ERR_NOT_FOUND. */
 static wo_status picture_at(wo_input *input, double time, picture **p, wo_error *error)
 {
     const int frame = (int)lround(fmin(fmax(time, -1e8), 1e8));

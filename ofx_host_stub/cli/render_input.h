@@ -7,8 +7,8 @@
 #include "bridge/image_io.h"
 #include "host/host.h"
 
-/* The clips of a render: files, or sequences of them, as sources of a host. A clip holds the picture of
-   the frame that is rendered; a clip that looks at other frames holds a few more. */
+/* The clips of a render: files, or sequences of them, as sources of a host. A clip holds the
+   picture of the frame that is rendered; a clip that looks at other frames holds a few more. */
 
 #define WO_INPUTS_MAX 32 /* clips of one render */
 
@@ -19,13 +19,14 @@
 typedef struct wo_inputs wo_inputs;
 typedef struct wo_input wo_input; /* one clip */
 
-/* colour is borrowed until wo_inputs_destroy, which takes NULL and sets *inputs to NULL. in_space is
-   the space of all colour files, or NULL: each by the rules of the colour configuration. */
+/* colour is borrowed until wo_inputs_destroy, which takes NULL and sets *inputs to NULL. in_space
+   is the space of all colour files, or NULL: each by the rules of the colour configuration. */
 WO_NODISCARD wo_status wo_inputs_create(wo_colour *colour, const char *in_space, wo_inputs **inputs,
                                         wo_error *error);
 void wo_inputs_destroy(wo_inputs **inputs);
 
-/* Adds a clip from "FILE[:CHANNELS]" and reads it at frame. clip is borrowed as long as inputs live. */
+/* Adds a clip from "FILE[:CHANNELS]" and reads it at frame. clip is borrowed as long as inputs
+   live. */
 WO_NODISCARD wo_status wo_inputs_add(wo_inputs *inputs, const wo_host_clip_info *clip,
                                      const char *spec, int frame, wo_error *error);
 
@@ -33,26 +34,26 @@ WO_NODISCARD wo_status wo_inputs_add(wo_inputs *inputs, const wo_host_clip_info 
 wo_input *wo_inputs_find(const wo_inputs *inputs, const char *clip);
 wo_input *wo_inputs_at(const wo_inputs *inputs, size_t index);
 
-/* Makes the pictures of one frame ready, drops what no clip needs any more. Fails when a file of this
-   frame is missing or damaged. */
+/* Makes the pictures of one frame ready, drops what no clip needs any more. Fails when a file of
+   this frame is missing or damaged. */
 WO_NODISCARD wo_status wo_inputs_prepare(wo_inputs *inputs, int frame, wo_error *error);
 
 /* What a clip is. */
 const char *wo_input_clip(const wo_input *input);
 const char *wo_input_file(const wo_input *input);  /* as given, without channels */
 const char *wo_input_space(const wo_input *input); /* "raw" for numbers */
-bool wo_input_is_sequence(const wo_input *input);
 
-/* Whether the clip holds numbers that no colour conversion may touch. Guessed at first: mattes, channels
-   that are no colours, and single channels of any clip but Source. */
+/* Whether the clip holds numbers that no colour conversion may touch. Guessed at first: mattes,
+   channels that are no colours, and single channels of any clip but Source. */
 bool wo_input_is_raw(const wo_input *input);
 void wo_input_set_raw(wo_input *input, bool raw); /* before wo_inputs_prepare */
 
-/* The present picture's file without its pixels: windows, pixel aspect, attributes. Borrowed until the
-   next wo_inputs_prepare. */
+/* The present picture's file without its pixels: windows, pixel aspect, attributes. Borrowed until
+   the next wo_inputs_prepare. */
 const wo_io_part *wo_input_header(const wo_input *input);
 
-/* The clip as a source; valid as long as inputs live. first and last are the frames of the render. */
+/* The clip as a source; valid as long as inputs live. first and last are the frames of the
+   render. */
 wo_host_source wo_input_source(wo_input *input, int first, int last);
 
 #endif

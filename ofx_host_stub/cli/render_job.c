@@ -34,7 +34,7 @@ static void publish(void *user, const char *kind, const char *text)
         wo_message("out of memory: a report of the plugin is lost");
 }
 
-/* ------------------------------------------------------------------------------- the camera's facts */
+/* --------------------------------------------------------------------------- the camera's facts */
 
 static bool is_set_by_user(const wo_args *args, const wo_host_param_info *param)
 {
@@ -49,8 +49,8 @@ static bool is_set_by_user(const wo_args *args, const wo_host_param_info *param)
     return false;
 }
 
-/* Facts are stored as 32-bit floats: 1.4 comes as 1.39999998. Gives the shortest number that is the same
-   float. */
+/* Facts are stored as 32-bit floats: 1.4 comes as 1.39999998. Gives the shortest number that is the
+   same float. */
 static double tidy(double number)
 {
     const float exact = (float)number;
@@ -84,22 +84,23 @@ static void apply_metadata(wo_render_job *job, const wo_input *source)
         if (wo_host_param_set(job->instance, param->name, &number, 1, &error) != WO_OK)
             wo_message("%s of %s is not used: %s", key, wo_input_file(source), error.text);
         else if (used < sizeof taken)
-            used += (size_t)snprintf(taken + used, sizeof taken - used, "%s%s %g",
-                                     used ? ", " : "", names[i], number);
+            used += (size_t)snprintf(taken + used, sizeof taken - used, "%s%s %g", used ? ", " : "",
+                                     names[i], number);
     }
     if (used > 0 && job->frame_index == 0)
-        wo_message("camera of %s: %s (--no-metadata leaves it alone)", wo_input_file(source), taken);
+        wo_message("camera of %s: %s (--no-metadata leaves it alone)", wo_input_file(source),
+                   taken);
 }
 
-/* ------------------------------------------------------------------------------------- one frame */
+/* ------------------------------------------------------------------------------------ one frame */
 
 /* The project's pixels at the scale of the render. */
 static wo_rect scaled_project(const wo_render_job *job)
 {
     const wo_rect p = job->project;
     const double sx = job->render.scale_x, sy = job->render.scale_y;
-    return (wo_rect){(int32_t)floor(p.x1 * sx), (int32_t)floor(p.y1 * sy),
-                     (int32_t)ceil(p.x2 * sx), (int32_t)ceil(p.y2 * sy)};
+    return (wo_rect){(int32_t)floor(p.x1 * sx), (int32_t)floor(p.y1 * sy), (int32_t)ceil(p.x2 * sx),
+                     (int32_t)ceil(p.y2 * sy)};
 }
 
 static bool output_is_raw(wo_render_job *job)
@@ -221,8 +222,7 @@ static wo_status render_frame(wo_render_job *job, wo_frame_record *frame, wo_err
         status = write_frame(job, frame, &image, error);
         frame->write_seconds = wo_seconds() - rendered;
     } else if (!job->explain) {
-        status = wo_fail(error, WO_ERR_RANGE,
-                         "frame %d has no pixels: nothing is written",
+        status = wo_fail(error, WO_ERR_RANGE, "frame %d has no pixels: nothing is written",
                          frame->frame);
     }
     wo_host_image_free(&image);

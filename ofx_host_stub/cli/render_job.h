@@ -37,8 +37,8 @@ typedef struct wo_render_job {
     size_t frame_index;
 } wo_render_job;
 
-/* Renders and writes every frame; stops at the first failure. The instance, its clips and parameters are
-   set. */
+/* Renders and writes every frame; stops at the first failure. The instance, its clips and
+   parameters are set. */
 WO_NODISCARD wo_status wo_render_frames(wo_render_job *job, wo_error *error);
 
 /* Progress callback of the host; user is the job. */

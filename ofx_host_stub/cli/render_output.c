@@ -61,8 +61,7 @@ wo_status wo_output_check(const wo_output *output, int frame, wo_error *error)
 /* Attributes that say how the input file was stored, not what it shows. */
 static bool is_storage(const wo_io_attribute *attribute, bool space_changed)
 {
-    static const char *const names[] = {"compression", "wideopen:flattenedDeep",
-                                        "wideopen:madeBy"};
+    static const char *const names[] = {"compression", "wideopen:flattenedDeep", "wideopen:madeBy"};
     return strncmp(attribute->name, "oiio:", 5) == 0 ||
            is_one_of(attribute->name, names, WO_COUNT(names)) ||
            (space_changed && strcmp(attribute->name, "chromaticities") == 0);
@@ -87,8 +86,7 @@ static wo_status fill_part(wo_io_part *part, const wo_image *image, wo_rect disp
     const int components = image->components;
     WO_TRY(wo_io_part_init(part, NULL, image->bounds, display, names[components == 1], components,
                            error));
-    const size_t row =
-        (size_t)wo_rect_width(image->bounds) * (size_t)components;
+    const size_t row = (size_t)wo_rect_width(image->bounds) * (size_t)components;
     for (int y = image->bounds.y1; y < image->bounds.y2; y++)
         memcpy(part->pixels + (size_t)(y - image->bounds.y1) * row,
                wo_image_at(image, image->bounds.x1, y), row * sizeof(float));
@@ -101,8 +99,7 @@ static wo_status convert(const wo_output *output, const char *path, const char *
     static const char *const straight[] = {"png", "tga"}; /* formats with unmultiplied colour */
     if (!raw)
         WO_TRY(wo_colour_convert(output->colour, WO_COLOUR_WORKING, space, image, error));
-    if (!raw && image->components == 4 &&
-        is_one_of(extension(path), straight, WO_COUNT(straight)))
+    if (!raw && image->components == 4 && is_one_of(extension(path), straight, WO_COUNT(straight)))
         wo_io_unpremultiply(image);
     return WO_OK;
 }

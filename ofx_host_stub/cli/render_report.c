@@ -204,8 +204,7 @@ wo_status wo_record_save(const wo_record *record, wo_host *host, const wo_inputs
                          const wo_error *failed, const char *path, wo_error *error)
 {
     char temporary[PATH_MAX];
-    const int length =
-        snprintf(temporary, sizeof temporary, "%s.%ld.tmp", path, (long)getpid());
+    const int length = snprintf(temporary, sizeof temporary, "%s.%ld.tmp", path, (long)getpid());
     if (length < 0 || (size_t)length >= sizeof temporary)
         return wo_fail(error, WO_ERR_IO, "the name of the report is too long: %.80s...", path);
     FILE *const out = fopen(temporary, "wb");

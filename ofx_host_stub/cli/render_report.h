@@ -15,8 +15,8 @@
                 "seconds": {"read", "render", "write"}, "rays", "reports": [...], "plan"}],
     "rays", "seconds", "violations": [...], "ok", "error"}
 
-   params are the values at the first frame, keys those that change over time. reports holds what the
-   plugin said of itself, one object for each render action. rays is their sum, null when the
+   params are the values at the first frame, keys those that change over time. reports holds what
+   the plugin said of itself, one object for each render action. rays is their sum, null when the
    plugin reports none. */
 
 typedef struct wo_frame_record {
@@ -27,7 +27,7 @@ typedef struct wo_frame_record {
     char identity_clip[64];
     unsigned actions;
     double read_seconds, render_seconds, write_seconds; /* wall clock */
-    char **reports; /* JSON texts */
+    char **reports;                                     /* JSON texts */
     size_t report_count;
     char *plan;
 } wo_frame_record;

@@ -12,7 +12,8 @@
 
 enum { DIRECTORIES_MAX = 64 };
 
-/* The folder Plugins beside the running program; false when the system does not tell where that is. */
+/* The folder Plugins beside the running program; false when the system does not tell where that
+   is. */
 static bool beside_program(char *buffer, size_t size)
 {
     const ssize_t length = readlink("/proc/self/exe", buffer, size - 1);

@@ -12,12 +12,17 @@
 
 /* Rows of the option table. */
 #define WO_OPTION_PLUGIN_PATH                                                                      \
-    {"--plugin-path", NULL, "DIR",                                                                 \
-     "Look for plugins here first, then in the folder Plugins beside this program, then in the "   \
-     "folders of OFX_PLUGIN_PATH and the system's own.",                                           \
-     true}
+    {                                                                                              \
+        "--plugin-path", NULL, "DIR",                                                              \
+            "Look for plugins here first, then in the folder Plugins beside this program, then "   \
+            "in the "                                                                              \
+            "folders of OFX_PLUGIN_PATH and the system's own.",                                    \
+            true                                                                                   \
+    }
 #define WO_OPTION_NOTES                                                                            \
-    {"--notes", NULL, NULL, "Say what was found but not taken as a plugin, and why.", false}
+    {                                                                                              \
+        "--notes", NULL, NULL, "Say what was found but not taken as a plugin, and why.", false     \
+    }
 
 /* Makes a host that has scanned --plugin-path, the folder Plugins beside the program and the search
    path. The directories of config are replaced, messages of plugins go to stderr when it has no
@@ -30,8 +35,8 @@ void wo_session_notes(const wo_host *host);
 /* Plugin by name; after a miss NULL and a message that says what there is. */
 const wo_host_plugin *wo_session_plugin(const wo_host *host, const char *name);
 
-/* Context by name, or with name NULL the one the host takes by itself: General, Filter, Generator. NULL
-   and a message when the plugin does not have it. command is the asking one. */
+/* Context by name, or with name NULL the one the host takes by itself: General, Filter, Generator.
+   NULL and a message when the plugin does not have it. command is the asking one. */
 const wo_host_context_info *wo_session_context(const wo_host_plugin *plugin, const char *name,
                                                const char *command);
 

@@ -191,15 +191,22 @@ wo_status wo_host_create(const wo_host_config *config, wo_host **out, wo_error *
     return WO_OK;
 }
 
+void wo_host_unload(wo_host *host)
+{
+    while (host->instances) {
+        wo_host_instance *instance = host->instances;
+        wo_host_instance_destroy(&instance);
+    }
+    for (size_t i = 0; i < host->entry_count; i++)
+        wo_entry_unload(host->entries[i]);
+}
+
 void wo_host_destroy(wo_host **place)
 {
     wo_host *host = *place;
     if (!host)
         return;
-    while (host->instances) {
-        wo_host_instance *instance = host->instances;
-        wo_host_instance_destroy(&instance);
-    }
+    wo_host_unload(host);
     for (size_t i = 0; i < host->entry_count; i++)
         wo_entry_destroy(&host->entries[i]);
     free(host->entries);

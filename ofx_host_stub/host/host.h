@@ -82,6 +82,10 @@ WO_NODISCARD wo_status wo_host_create(const wo_host_config *config, wo_host **ho
    *host to NULL. */
 void wo_host_destroy(wo_host **host);
 
+/* Destroys instances that were forgotten and unloads the plugins, so that what they left behind can be read
+   as violations. Afterwards descriptions, notes and violations can be read, nothing be made. */
+void wo_host_unload(wo_host *host);
+
 /* Searches one more directory, and those below it, for NAME.ofx.bundle. Names that begin with '@'
    are skipped; a plugin whose identifier and major version are known already is skipped unless its
    minor version is higher. */

@@ -89,6 +89,8 @@ wo_status wo_host_instance_create(wo_host *host, const wo_host_plugin *plugin, c
     if (!info)
         return wo_fail(error, WO_ERR_NOT_FOUND, "%.80s has no context \"%.60s\"",
                        plugin->identifier, context ? context : "");
+    if (!entry->loaded)
+        return wo_fail(error, WO_ERR_ARGUMENT, "%.80s is unloaded", plugin->identifier);
     if (!plugin->float_pixels)
         return wo_fail(error, WO_ERR_UNSUPPORTED, "%.80s does not take 32-bit float pixels",
                        plugin->identifier);

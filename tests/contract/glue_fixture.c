@@ -205,6 +205,23 @@ wo_image picture_floats(const mock_picture *p)
     return image;
 }
 
+wo_image picture_border(const wo_image *image, wo_rect bounds)
+{
+    const int count = image->components == 1 ? 1 : 4;
+    const ptrdiff_t row = (ptrdiff_t)wo_rect_width(bounds) * count * (ptrdiff_t)sizeof(float);
+    const wo_image bordered = {keep(calloc((size_t)wo_rect_height(bounds), (size_t)row)), bounds,
+                               row, count};
+    const wo_rect inside = wo_rect_intersect(bounds, image->bounds);
+    for (int32_t y = inside.y1; y < inside.y2; y++)
+        for (int32_t x = inside.x1; x < inside.x2; x++) {
+            float *const to = wo_image_at(&bordered, x, y);
+            if (count == 4)
+                to[3] = 1;
+            memcpy(to, wo_image_at(image, x, y), (size_t)image->components * sizeof(float));
+        }
+    return bordered;
+}
+
 void expect_defaults(expected *e)
 {
     memset(e, 0, sizeof *e);
@@ -226,8 +243,12 @@ const float *expect_pixels(const expected *e, wo_rect window)
     const wo_image output = {keep(malloc(row * (size_t)wo_rect_height(window) * sizeof(float))),
                              window, (ptrdiff_t)(row * sizeof(float)), 4};
 
-    for (int i = 0; i < PROBE_CLIPS; i++)
+    for (int i = 0; i < PROBE_CLIPS; i++) {
         inputs[i] = picture_floats(&mock.pictures[i]);
+        if (inputs[i].data && i >= PROBE_MASK &&
+            !wo_rect_contains(inputs[i].bounds, e->geometry.extent))
+            inputs[i] = picture_border(&inputs[i], e->geometry.extent);
+    }
     args.alpha[0] = e->alpha;
     assert_int_equal(probe_effect.plan_create(&context, &e->params, &args, &plan, NULL), WO_OK);
     assert_int_equal(probe_effect.render(plan, window, &output, NULL, NULL), WO_OK);
@@ -253,7 +274,7 @@ static float stored(float value, wo_depth depth)
 
 void assert_output(const float *pixels, wo_rect window)
 {
-    const mock_picture *const p = &mock.pictures[3];
+    const mock_picture *const p = &mock.pictures[MOCK_OUTPUT];
     const int count = count_of(p->components);
     for (int32_t y = window.y1; y < window.y2; y++)
         for (int32_t x = window.x1; x < window.x2; x++, pixels += 4)

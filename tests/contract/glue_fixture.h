@@ -34,6 +34,10 @@ void picture_make(mock_picture *picture, wo_rect bounds, const char *depth, cons
 /* Fills all pixels with one byte. */
 void picture_fill(const mock_picture *picture, int byte);
 
+/* A view of an image with a border of zeros, RGBA with alpha 1 inside if it was RGB: what is
+   expected of colour and masks that end within the frame. Freed by fixture_unload. */
+wo_image picture_border(const wo_image *image, wo_rect bounds);
+
 /* The same pixels as 32-bit float in the components that OpenFX gave, in memory of their own; data
    NULL for a picture that is not there. */
 wo_image picture_floats(const mock_picture *picture);

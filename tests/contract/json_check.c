@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
 
-/* Ends with 0 when standard input is one well-formed JSON value in UTF-8 (RFC 8259), else with 1 and the
-   byte where it goes wrong. Shares no code with the program it checks. */
+/* Ends with 0 when standard input is one well-formed JSON value in UTF-8 (RFC 8259), else with 1
+   and the byte where it goes wrong. Shares no code with the program it checks. */
 
 #include <ctype.h>
 #include <stdbool.h>

@@ -28,6 +28,8 @@ enum {
     MOCK_NO_INSTANCE_DATA = 4096 /* kOfxPropInstanceData cannot be kept */
 };
 
+enum { MOCK_OUTPUT = 4, MOCK_CLIPS };
+
 typedef enum mock_threading {
     MOCK_THREADS_REAL,   /* one thread for each call */
     MOCK_THREADS_SERIAL, /* one after the other on the caller */
@@ -63,7 +65,7 @@ typedef struct mock_state {
     int abort_after;    /* abort answers 1 from this call on; < 0 = never */
     bool cancel;        /* progressUpdate answers No */
     int report_mode;
-    mock_picture pictures[4]; /* Source, Depth, Mask, Output */
+    mock_picture pictures[MOCK_CLIPS]; /* Source, Depth, Mask, Extra, Output */
 
     /* Read by the test. */
     long allocations;

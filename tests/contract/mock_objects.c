@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PROPS_MAX = 64, VALUES_MAX = 24, PARAMS_MAX = 32, CLIPS_MAX = 4 };
+enum { PROPS_MAX = 64, VALUES_MAX = 24, PARAMS_MAX = 32 };
 
 typedef struct prop {
     char name[80];
@@ -48,7 +48,7 @@ struct OfxImageClipStruct {
 struct OfxImageEffectStruct {
     OfxPropertySetHandle props;
     struct OfxParamSetStruct params;
-    struct OfxImageClipStruct clips[CLIPS_MAX];
+    struct OfxImageClipStruct clips[MOCK_CLIPS];
     int clip_count;
 };
 
@@ -357,12 +357,12 @@ static OfxStatus get_params(OfxImageEffectHandle effect, OfxParamSetHandle *para
 static OfxStatus clip_define(OfxImageEffectHandle effect, const char *name,
                              OfxPropertySetHandle *props)
 {
-    static const char *const names[CLIPS_MAX] = {"Source", "Depth", "Mask", "Output"};
-    if (effect->clip_count == CLIPS_MAX)
+    static const char *const names[MOCK_CLIPS] = {"Source", "Depth", "Mask", "Extra", "Output"};
+    if (effect->clip_count == MOCK_CLIPS)
         return kOfxStatErrExists;
     const OfxImageClipHandle clip = &effect->clips[effect->clip_count++];
     snprintf(clip->name, sizeof clip->name, "%s", name);
-    for (int i = 0; i < CLIPS_MAX; i++)
+    for (int i = 0; i < MOCK_CLIPS; i++)
         if (strcmp(names[i], name) == 0)
             clip->picture = &mock.pictures[i];
     clip->props = set_new();

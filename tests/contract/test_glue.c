@@ -70,6 +70,7 @@ static void reset_clips(double aspect)
     clips[0] = (noise){{-6, 4, 61, 40}, 4, 1, aspect, false};
     clips[1] = (noise){{10, -20, 41, 33}, 3, 2, aspect, false};
     clips[2] = (noise){{-30, 11, 48, 90}, 1, 3, aspect, false};
+    clips[3] = (noise){{20, 8, 80, 30}, 3, 4, aspect, false};
 }
 
 static wo_host_source source_of(noise *n)
@@ -180,9 +181,15 @@ typedef struct setup {
 
 static setup default_setup(void)
 {
-    setup s = {.scale = {1, 1}, .aspect = 1, .connected = {true, true, true}};
+    setup s = {.scale = {1, 1}, .aspect = 1, .connected = {true, true, true, true}};
     wo_params_default(probe_effect.params, probe_effect.param_count, &s.params);
     return s;
+}
+
+static void connect_only_source(setup *s)
+{
+    memset(s->connected, 0, sizeof s->connected);
+    s->connected[PROBE_SOURCE] = true;
 }
 
 static wo_rect pixels_of(const setup *s, wo_host_region r)
@@ -201,6 +208,22 @@ static wo_image new_image(wo_rect bounds, int32_t components)
     return image;
 }
 
+/* Colour and masks are zero where they end within the frame. */
+static void add_border(wo_image *image, wo_rect bounds)
+{
+    const wo_image bordered = new_image(bounds, image->components == 1 ? 1 : 4);
+    const wo_rect inside = wo_rect_intersect(bounds, image->bounds);
+    for (int32_t y = inside.y1; y < inside.y2; y++)
+        for (int32_t x = inside.x1; x < inside.x2; x++) {
+            float *const to = wo_image_at(&bordered, x, y);
+            if (bordered.components == 4)
+                to[3] = 1;
+            memcpy(to, wo_image_at(image, x, y), (size_t)image->components * sizeof(float));
+        }
+    free(image->data);
+    *image = bordered;
+}
+
 static wo_image expected(const setup *s)
 {
     const wo_context context = WO_CONTEXT_INIT;
@@ -217,6 +240,8 @@ static wo_image expected(const setup *s)
             continue;
         inputs[i] = new_image(pixels_of(s, clips[i].region), clips[i].components);
         fill(&clips[i], &inputs[i]);
+        if (i >= PROBE_MASK)
+            add_border(&inputs[i], args.geometry.extent);
     }
     const wo_image output = new_image(args.window, 4);
     assert_int_equal(probe_effect.plan_create(&context, &s->params, &args, &plan, NULL), WO_OK);
@@ -351,7 +376,7 @@ static void it_can_be_loaded_many_times(void **state)
         wo_host_instance *instance = create(host, "Filter", 1);
         connect(instance, PROBE_SOURCE);
         setup s = default_setup();
-        s.connected[1] = s.connected[2] = false;
+        connect_only_source(&s);
         const wo_host_render_args args = args_of(&s);
         assert_render(instance, &s, &args);
         wo_host_instance_destroy(&instance);
@@ -365,23 +390,18 @@ static void optional_clips_may_be_missing(void **state)
     static const char *const contexts[] = {"Filter", "General"};
     wo_host *host = open_host(2, 0);
     for (size_t k = 0; k < WO_COUNT(contexts); k++)
-        for (unsigned bits = 0; bits < 8; bits++) {
+        for (unsigned bits = 0; bits < 16; bits++) {
             reset_clips(1);
             wo_host_instance *instance = create(host, contexts[k], 1);
             setup s = default_setup();
             const wo_host_render_args args = args_of(&s);
             connect(instance, PROBE_SOURCE);
-            for (int clip = 1; clip <= 2; clip++) {
-                s.connected[clip] = bits & (unsigned)clip;
-                if (s.connected[clip])
+            for (int clip = 1; clip < PROBE_CLIPS; clip++) {
+                s.connected[clip] = (bits >> (clip - 1)) & 1;
+                /* Connected, but with nothing to give. */
+                clips[clip].missing = !s.connected[clip] && bits & 8;
+                if (s.connected[clip] || clips[clip].missing)
                     connect(instance, clip);
-            }
-            if (bits & 4) { /* connected, but with nothing to give */
-                for (int clip = 1; clip <= 2; clip++) {
-                    clips[clip].missing = true;
-                    connect(instance, clip);
-                    s.connected[clip] = false;
-                }
             }
             assert_render(instance, &s, &args);
             wo_host_instance_destroy(&instance);
@@ -499,7 +519,7 @@ static void preferences_ask_for_linear_light(void **state)
             assert_int_equal(clip->colourspace_count, 1);
             assert_string_equal(clip->colourspaces[0], "ofx_raw");
         } else {
-            assert_int_equal(clip->colourspace_count, 0);
+            assert_int_equal(clip->colourspace_count, strcmp(clip->clip, "Extra") == 0 ? 2 : 0);
         }
         if (strcmp(clip->clip, "Output") == 0)
             assert_int_equal(clip->components, 4);
@@ -553,7 +573,7 @@ static void an_abort_ends_the_render_early(void **state)
         atomic_store(&watch.stop_after, -1);
         set(instance, "trouble", "No trouble");
         setup after = default_setup();
-        after.connected[1] = after.connected[2] = false;
+        connect_only_source(&after);
         assert_render(instance, &after, &args);
         wo_host_instance_destroy(&instance);
         close_host(&host);
@@ -567,7 +587,7 @@ static void errors_are_shown_and_go_away(void **state)
     reset_clips(1);
     wo_host_instance *instance = create(host, "Filter", 1);
     setup s = default_setup();
-    s.connected[1] = s.connected[2] = false;
+    connect_only_source(&s);
     wo_host_render_args args = args_of(&s);
     args.tile_width = 20;
     wo_image got = {.data = NULL};
@@ -608,7 +628,7 @@ static void plans_and_reports_are_published(void **state)
     published p = {0, 0, ""};
     s.aspect = 2;
     s.scale[0] = s.scale[1] = 0.5;
-    s.connected[PROBE_MASK] = false;
+    s.connected[PROBE_MASK] = s.connected[PROBE_EXTRA] = false;
     wo_host_render_args args = args_of(&s);
     args.report = WO_HOST_REPORT_RENDER;
     args.report_user = &p;
@@ -630,7 +650,7 @@ static void plans_and_reports_are_published(void **state)
     assert_int_equal(p.reports, 1);
     assert_non_null(strstr(p.text, "format=0,0,16,24\nextent=-2,2,16,20\n"));
     assert_non_null(strstr(p.text, "scale=0.500000\nstretch=2.000000\n"));
-    assert_non_null(strstr(p.text, "connected=110\npixels=430\n"));
+    assert_non_null(strstr(p.text, "connected=1100\npixels=4300\n"));
     wo_host_instance_destroy(&instance);
     close_host(&host);
 }
@@ -676,8 +696,9 @@ static void two_instances_work_side_by_side(void **state)
     }
     for (int i = 0; i < 2; i++)
         assert_int_equal(pthread_create(&threads[i], NULL, race, &racers[i]), 0);
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 2; i++)
         pthread_join(threads[i], NULL);
+    for (int i = 0; i < 2; i++) {
         assert_int_equal(racers[i].wrong, 0);
         free(racers[i].wanted.data);
         wo_host_instance_destroy(&racers[i].instance);

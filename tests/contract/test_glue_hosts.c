@@ -19,13 +19,14 @@ static const wo_rect full = {0, 0, 12, 7};
 static void pictures(void)
 {
     picture_make(&mock.pictures[0], full, kOfxBitDepthFloat, kOfxImageComponentRGBA, 0, 1);
-    picture_make(&mock.pictures[3], full, kOfxBitDepthFloat, kOfxImageComponentRGBA, 0, 9);
+    picture_make(&mock.pictures[MOCK_OUTPUT], full, kOfxBitDepthFloat, kOfxImageComponentRGBA, 0,
+                 9);
 }
 
 static void assert_default_render(OfxImageEffectHandle effect)
 {
     expected e;
-    picture_fill(&mock.pictures[3], 0x7f);
+    picture_fill(&mock.pictures[MOCK_OUTPUT], 0x7f);
     render(effect, full, kOfxStatOK);
     expect_defaults(&e);
     assert_output(expect_pixels(&e, full), full);
@@ -193,7 +194,8 @@ static void properties_the_host_lacks_are_done_without(void **state)
                                         kOfxImageClipPropConnected};
     (void)state;
     pictures();
-    mock.pictures[1].silent = mock.pictures[2].silent = true;
+    for (int i = 1; i < MOCK_OUTPUT; i++)
+        mock.pictures[i].silent = true;
     for (size_t i = 0; i < WO_COUNT(names); i++) {
         mock.forget = names[i];
         const OfxImageEffectHandle effect = create(kOfxImageEffectContextFilter);
@@ -266,7 +268,7 @@ static void every_allocation_may_fail(void **state)
     picture_make(&mock.pictures[0], full, kOfxBitDepthByte, kOfxImageComponentRGB, 0, 1);
     picture_make(&mock.pictures[1], full, kOfxBitDepthHalf, kOfxImageComponentAlpha, 0, 2);
     picture_make(&mock.pictures[2], full, kOfxBitDepthShort, kOfxImageComponentRGBA, 0, 3);
-    picture_make(&mock.pictures[3], full, kOfxBitDepthByte, kOfxImageComponentRGBA, 0, 9);
+    picture_make(&mock.pictures[MOCK_OUTPUT], full, kOfxBitDepthByte, kOfxImageComponentRGBA, 0, 9);
     for (size_t i = 0; i < WO_COUNT(flags); i++) {
         reload(flags[i]);
         mock.fail_after = 0;
@@ -351,17 +353,17 @@ static void an_abort_stops_the_render(void **state)
     (void)state;
     picture_make(&mock.pictures[0], (wo_rect){0, 0, 40, 400}, kOfxBitDepthFloat,
                  kOfxImageComponentRGBA, 0, 1);
-    picture_make(&mock.pictures[3], (wo_rect){0, 0, 40, 400}, kOfxBitDepthFloat,
+    picture_make(&mock.pictures[MOCK_OUTPUT], (wo_rect){0, 0, 40, 400}, kOfxBitDepthFloat,
                  kOfxImageComponentRGBA, 0, 9);
     const OfxImageEffectHandle effect = create(kOfxImageEffectContextFilter);
-    picture_fill(&mock.pictures[3], 0);
+    picture_fill(&mock.pictures[MOCK_OUTPUT], 0);
     mock.abort_after = 100;
     mock.report_mode = kWideOpenReportRender;
     render(effect, (wo_rect){0, 0, 40, 400}, kOfxStatOK);
     assert_string_equal(mock.published, ""); /* no report of half a picture */
     assert_int_equal(mock.persistent, 0);
-    assert_true(picture_value(&mock.pictures[3], 0, 0, 3) != 0);
-    assert_true(picture_value(&mock.pictures[3], 0, 399, 3) == 0);
+    assert_true(picture_value(&mock.pictures[MOCK_OUTPUT], 0, 0, 3) != 0);
+    assert_true(picture_value(&mock.pictures[MOCK_OUTPUT], 0, 399, 3) == 0);
     assert_true(mock.progress_last < 0.5);
     mock_destroy(probe, effect);
 }
@@ -385,10 +387,10 @@ static void the_progress_bar_rises_and_can_cancel(void **state)
         mock.cancel = true;
         mock.progress_last = 0;
         mock_set_number(effect, "trouble", PROBE_TROUBLE_SLOW, 0, 0);
-        picture_fill(&mock.pictures[3], 0);
+        picture_fill(&mock.pictures[MOCK_OUTPUT], 0);
         mock.cpus = 1;
         render(effect, full, kOfxStatOK);
-        assert_true(picture_value(&mock.pictures[3], 0, 6, 3) == 0);
+        assert_true(picture_value(&mock.pictures[MOCK_OUTPUT], 0, 6, 3) == 0);
         assert_int_equal(mock.progress_ends, 2);
         mock_destroy(probe, effect);
     }
@@ -407,9 +409,10 @@ static void reports_are_published_when_asked_for(void **state)
     assert_non_null(strstr(mock.published, "\"pixels\": 84,"));
     assert_non_null(strstr(mock.published, "this is a box"));
     mock_set_text(effect, "note", "remember");
-    picture_fill(&mock.pictures[3], 0);
+    picture_fill(&mock.pictures[MOCK_OUTPUT], 0);
     assert_non_null(strstr(explain(effect, full, NULL), "note=remember\n"));
-    assert_true(picture_value(&mock.pictures[3], 5, 5, 0) == 0); /* nothing was rendered */
+    assert_true(picture_value(&mock.pictures[MOCK_OUTPUT], 5, 5, 0) ==
+                0); /* nothing was rendered */
     mock_destroy(probe, effect);
 }
 

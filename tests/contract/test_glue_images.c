@@ -23,12 +23,13 @@ static const wo_rect frame = {-3, 2, 14, 11};
 static void source_and_output(void)
 {
     picture_make(&mock.pictures[0], frame, kOfxBitDepthFloat, kOfxImageComponentRGBA, 0, 1);
-    picture_make(&mock.pictures[3], frame, kOfxBitDepthFloat, kOfxImageComponentRGBA, 0, 9);
+    picture_make(&mock.pictures[MOCK_OUTPUT], frame, kOfxBitDepthFloat, kOfxImageComponentRGBA, 0,
+                 9);
 }
 
 static void assert_picture(OfxImageEffectHandle effect, expected *e, wo_rect window)
 {
-    picture_fill(&mock.pictures[3], 0x7f);
+    picture_fill(&mock.pictures[MOCK_OUTPUT], 0x7f);
     render(effect, window, kOfxStatOK);
     assert_output(expect_pixels(e, window), window);
 }
@@ -45,8 +46,8 @@ static void inputs_of_any_kind_are_taken(void **state)
                 picture_make(&mock.pictures[1], frame, depths[depth], kinds[kind], layout, 2);
                 picture_make(&mock.pictures[2], frame, depths[depth], kOfxImageComponentAlpha,
                              layout, 3);
-                picture_make(&mock.pictures[3], frame, kOfxBitDepthFloat, kOfxImageComponentRGBA,
-                             layout, 9);
+                picture_make(&mock.pictures[MOCK_OUTPUT], frame, kOfxBitDepthFloat,
+                             kOfxImageComponentRGBA, layout, 9);
                 expect_defaults(&e);
                 e.alpha = kind == 1 ? WO_ALPHA_OPAQUE : WO_ALPHA_PREMULTIPLIED;
                 assert_picture(effect, &e, frame);
@@ -68,16 +69,17 @@ static void outputs_of_any_kind_are_written(void **state)
                 expected e;
                 picture_make(&mock.pictures[0], frame, kOfxBitDepthFloat, kOfxImageComponentRGBA, 0,
                              1);
-                picture_make(&mock.pictures[3], frame, depths[depth], kinds[kind], layout, 9);
+                picture_make(&mock.pictures[MOCK_OUTPUT], frame, depths[depth], kinds[kind], layout,
+                             9);
                 expect_defaults(&e);
                 e.params.tint[0] = 1.5;
                 e.params.tint[1] = 0;
                 e.params.centre[1] = -200;
                 assert_picture(effect, &e, window);
                 /* Nothing outside the window is touched. */
-                const float outside = picture_value(&mock.pictures[3], -2, 3, 0);
-                picture_fill(&mock.pictures[3], 0x7f);
-                const float untouched = picture_value(&mock.pictures[3], -2, 3, 0);
+                const float outside = picture_value(&mock.pictures[MOCK_OUTPUT], -2, 3, 0);
+                picture_fill(&mock.pictures[MOCK_OUTPUT], 0x7f);
+                const float untouched = picture_value(&mock.pictures[MOCK_OUTPUT], -2, 3, 0);
                 assert_memory_equal(&outside, &untouched, sizeof outside);
                 fixture_free_pictures();
             }
@@ -141,7 +143,7 @@ static void images_that_are_not_there_are_not_connected(void **state)
             if (how == 2)
                 mock.pictures[clip].region = (OfxRectD){0, 0, 9, 9};
         }
-        assert_non_null(strstr(explain(effect, frame, NULL), "connected=100\npixels=400\n"));
+        assert_non_null(strstr(explain(effect, frame, NULL), "connected=1000\npixels=4000\n"));
         if (how == 2)
             mock.pictures[1].data = mock.pictures[2].data = NULL;
         expected e;
@@ -158,15 +160,16 @@ static void without_source_the_picture_is_black(void **state)
     for (int how = 0; how < 3; how++)
         for (size_t depth = 0; depth < WO_COUNT(depths); depth++) {
             source_and_output();
-            picture_make(&mock.pictures[3], frame, depths[depth], kOfxImageComponentRGBA, 0, 9);
+            picture_make(&mock.pictures[MOCK_OUTPUT], frame, depths[depth], kOfxImageComponentRGBA,
+                         0, 9);
             mock.pictures[0].silent = how == 0;
             mock.pictures[0].connected = how != 1;
             if (how == 2)
                 mock.pictures[0].data = NULL;
             render(effect, (wo_rect){0, 3, 5, 6}, kOfxStatOK);
             for (int c = 0; c < 4; c++) {
-                assert_true(picture_value(&mock.pictures[3], 0, 3, c) == 0);
-                assert_true(picture_value(&mock.pictures[3], 4, 5, c) == 0);
+                assert_true(picture_value(&mock.pictures[MOCK_OUTPUT], 0, 3, c) == 0);
+                assert_true(picture_value(&mock.pictures[MOCK_OUTPUT], 4, 5, c) == 0);
             }
             assert_int_equal(mock.persistent, 0);
             fixture_free_pictures();
@@ -178,7 +181,7 @@ static void senseless_images_are_refused(void **state)
 {
     (void)state;
     const OfxImageEffectHandle effect = create(kOfxImageEffectContextFilter);
-    for (int clip = 0; clip <= 3; clip += 3)
+    for (int clip = 0; clip <= MOCK_OUTPUT; clip += MOCK_OUTPUT)
         for (int how = 0; how < 6; how++) {
             source_and_output();
             mock_picture *const p = &mock.pictures[clip];
@@ -206,8 +209,8 @@ static void senseless_images_are_refused(void **state)
     mock.pictures[0].depth = kOfxBitDepthByte;
     mock.pictures[0].region = (OfxRectD){0, 0, 10, 10};
     const wo_rect large = {0, 0, 200000, 1};
-    mock.pictures[3].bounds = large;
-    mock.pictures[3].row_bytes = INT_MAX;
+    mock.pictures[MOCK_OUTPUT].bounds = large;
+    mock.pictures[MOCK_OUTPUT].row_bytes = INT_MAX;
     render(effect, large, kOfxStatFailed);
     assert_non_null(strstr(mock.message, "200000"));
     mock_destroy(probe, effect);
@@ -218,7 +221,7 @@ static void no_output_image_is_a_failure(void **state)
     (void)state;
     const OfxImageEffectHandle effect = create(kOfxImageEffectContextFilter);
     source_and_output();
-    mock.pictures[3].silent = true;
+    mock.pictures[MOCK_OUTPUT].silent = true;
     render(effect, frame, kOfxStatFailed);
     assert_non_null(strstr(mock.message, "no image to render into"));
     mock_destroy(probe, effect);
@@ -231,7 +234,8 @@ static void windows_are_cut_to_the_output(void **state)
     const OfxImageEffectHandle effect = create(kOfxImageEffectContextFilter);
     const wo_rect small = {0, 4, 5, 8};
     source_and_output();
-    picture_make(&mock.pictures[3], small, kOfxBitDepthFloat, kOfxImageComponentRGBA, 0, 9);
+    picture_make(&mock.pictures[MOCK_OUTPUT], small, kOfxBitDepthFloat, kOfxImageComponentRGBA, 0,
+                 9);
     render(effect, (wo_rect){-100, -100, 100, 100}, kOfxStatOK);
     expect_defaults(&e);
     assert_output(expect_pixels(&e, small), small);
@@ -264,7 +268,7 @@ static void bounds_may_be_smaller_than_the_region(void **state)
     mock.pictures[0].region = (OfxRectD){-20, -20, 40, 40};
     expect_defaults(&e);
     assert_picture(effect, &e, frame);
-    picture_make(&mock.pictures[3], (wo_rect){30, 30, 40, 40}, kOfxBitDepthFloat,
+    picture_make(&mock.pictures[MOCK_OUTPUT], (wo_rect){30, 30, 40, 40}, kOfxBitDepthFloat,
                  kOfxImageComponentRGBA, 0, 9);
     assert_picture(effect, &e, (wo_rect){30, 30, 40, 40});
     mock_destroy(probe, effect);
@@ -279,9 +283,10 @@ static void tiles_make_the_same_bytes(void **state)
         picture_make(&mock.pictures[0], frame, depths[depth], kOfxImageComponentRGBA, 0, 1);
         picture_make(&mock.pictures[1], frame, depths[depth], kOfxImageComponentRGB, 0, 2);
         picture_make(&mock.pictures[2], frame, depths[depth], kOfxImageComponentAlpha, 0, 3);
-        picture_make(&mock.pictures[3], frame, depths[depth], kOfxImageComponentRGBA, 0, 9);
+        picture_make(&mock.pictures[MOCK_OUTPUT], frame, depths[depth], kOfxImageComponentRGBA, 0,
+                     9);
         expect_defaults(&e);
-        picture_fill(&mock.pictures[3], 0x7f);
+        picture_fill(&mock.pictures[MOCK_OUTPUT], 0x7f);
         for (int32_t y = frame.y1; y < frame.y2; y += 2)
             for (int32_t x = frame.x1; x < frame.x2; x += 5)
                 render(effect, wo_rect_intersect((wo_rect){x, y, x + 5, y + 2}, frame), kOfxStatOK);
@@ -291,29 +296,87 @@ static void tiles_make_the_same_bytes(void **state)
     mock_destroy(probe, effect);
 }
 
-/* A mask with a small bounding box: tiles beside it see its edge, as the whole picture does. */
-static void tiles_beside_a_small_clip_see_its_edge(void **state)
+/* Clips with small bounding boxes: depth repeats its edge, colour and masks end; tiles beside them
+   see the same as the whole picture does. */
+static void tiles_beside_small_clips_see_what_is_there(void **state)
+{
+    (void)state;
+    static const char *const alphas[] = {kOfxImagePreMultiplied, kOfxImageOpaque};
+    const OfxImageEffectHandle effect = create(kOfxImageEffectContextGeneral);
+    for (size_t depth = 0; depth < WO_COUNT(depths); depth++)
+        for (size_t kind = 0; kind < 2; kind++) {
+            expected e;
+            source_and_output();
+            picture_make(&mock.pictures[1], (wo_rect){2, 5, 6, 8}, depths[depth],
+                         kOfxImageComponentRGB, 0, 2);
+            picture_make(&mock.pictures[2], (wo_rect){7, 3, 11, 7}, depths[depth],
+                         kOfxImageComponentAlpha, 0, 3);
+            picture_make(&mock.pictures[3], (wo_rect){-9, 4, 5, 9}, depths[depth], kinds[kind], 0,
+                         4);
+            mock.pictures[3].alpha = alphas[kind];
+            expect_defaults(&e);
+            assert_picture(effect, &e, frame);
+            picture_fill(&mock.pictures[MOCK_OUTPUT], 0x7f);
+            for (int32_t y = frame.y1; y < frame.y2; y++)
+                for (int32_t x = frame.x1; x < frame.x2; x += 2)
+                    render(effect, wo_rect_intersect((wo_rect){x, y, x + 2, y + 1}, frame),
+                           kOfxStatOK);
+            assert_output(expect_pixels(&e, frame), frame);
+            fixture_free_pictures();
+        }
+    mock_destroy(probe, effect);
+}
+
+/* An opaque picture may carry rubbish in its alpha; its border must not become part of it. */
+static void the_border_of_an_opaque_clip_is_not_opaque(void **state)
+{
+    (void)state;
+    const OfxImageEffectHandle effect = create(kOfxImageEffectContextGeneral);
+    source_and_output();
+    picture_make(&mock.pictures[3], (wo_rect){0, 4, 5, 9}, kOfxBitDepthFloat,
+                 kOfxImageComponentRGBA, 0, 4);
+    mock.pictures[3].alpha = kOfxImageOpaque;
+    mock_set_number(effect, "radius", 0, 0, 0);
+    render(effect, frame, kOfxStatOK);
+    for (int c = 0; c < 4; c++) {
+        const float under = picture_value(&mock.pictures[0], 6, 5, c);
+        assert_true(picture_value(&mock.pictures[MOCK_OUTPUT], 6, 5, c) == under);
+        const float over = c == 3 ? 1 : picture_value(&mock.pictures[3], 1, 5, c);
+        assert_true(picture_value(&mock.pictures[MOCK_OUTPUT], 1, 5, c) == over);
+    }
+    mock_destroy(probe, effect);
+}
+
+/* Hosts may want to see what is beside Source. */
+static void beside_source_is_nothing(void **state)
 {
     (void)state;
     expected e;
-    const OfxImageEffectHandle effect = create(kOfxImageEffectContextGeneral);
-    source_and_output();
-    picture_make(&mock.pictures[1], (wo_rect){2, 5, 6, 8}, kOfxBitDepthFloat, kOfxImageComponentRGB,
-                 0, 2);
-    picture_make(&mock.pictures[2], (wo_rect){7, 3, 9, 4}, kOfxBitDepthByte,
-                 kOfxImageComponentAlpha, 0, 3);
-    expect_defaults(&e);
-    picture_fill(&mock.pictures[3], 0x7f);
-    for (int32_t y = frame.y1; y < frame.y2; y++)
-        for (int32_t x = frame.x1; x < frame.x2; x += 2)
-            render(effect, wo_rect_intersect((wo_rect){x, y, x + 2, y + 1}, frame), kOfxStatOK);
-    assert_output(expect_pixels(&e, frame), frame);
+    const OfxImageEffectHandle effect = create(kOfxImageEffectContextFilter);
+    const wo_rect wide = {-8, 0, 20, 15};
+    for (size_t depth = 0; depth < WO_COUNT(depths); depth++) {
+        source_and_output();
+        picture_make(&mock.pictures[MOCK_OUTPUT], wide, depths[depth], kOfxImageComponentRGBA, 0,
+                     9);
+        expect_defaults(&e);
+        render(effect, wide, kOfxStatOK);
+        assert_output(expect_pixels(&e, frame), frame);
+        for (int c = 0; c < 4; c++) {
+            assert_true(picture_value(&mock.pictures[MOCK_OUTPUT], -8, 0, c) == 0);
+            assert_true(picture_value(&mock.pictures[MOCK_OUTPUT], 14, 5, c) == 0);
+            assert_true(picture_value(&mock.pictures[MOCK_OUTPUT], 19, 14, c) == 0);
+        }
+        picture_fill(&mock.pictures[MOCK_OUTPUT], 0x7f);
+        render(effect, (wo_rect){15, 0, 20, 15}, kOfxStatOK);
+        assert_true(picture_value(&mock.pictures[MOCK_OUTPUT], 15, 5, 0) == 0);
+        fixture_free_pictures();
+    }
     mock_destroy(probe, effect);
 }
 
 static bool says(OfxImageEffectHandle effect, const double scale[2], const char *line)
 {
-    const char *const text = explain(effect, frame, scale);
+    const char *const text = explain(effect, (wo_rect){-200, -200, 2000, 2000}, scale);
     if (!strstr(text, line))
         print_error("%s is not in:\n%s", line, text);
     return strstr(text, line) != NULL;
@@ -472,7 +535,9 @@ int main(void)
         TEST(too_small_an_image_is_asked_for_again),
         TEST(bounds_may_be_smaller_than_the_region),
         TEST(tiles_make_the_same_bytes),
-        TEST(tiles_beside_a_small_clip_see_its_edge),
+        TEST(tiles_beside_small_clips_see_what_is_there),
+        TEST(the_border_of_an_opaque_clip_is_not_opaque),
+        TEST(beside_source_is_nothing),
         TEST(scales_and_aspects_reach_the_core),
         TEST(endless_regions_end_at_the_project),
         TEST(without_a_project_source_is_the_frame),

@@ -13,7 +13,7 @@
 
 #include <cmocka.h>
 
-/* ------------------------------------------------------------------------------------------ frames */
+/* --------------------------------------------------------------------------------------- frames */
 
 static void check_frames(const char *text, const int *expected, size_t count)
 {
@@ -55,10 +55,27 @@ static void test_frames_summary(void **state)
 
 static void test_frames_refused(void **state)
 {
-    static const char *const wrong[] = {"",     "a",     "1-",    "4-1",  "1-5x0", "1-5x-1",   "1,",
-                                        ",1",   "1 -3",  "1.5",   "1x2",  " 1",    "1-2-3",    "0x10",
-                                        "--1",  "1-5x",  "1,,2",  "1;2",  "9999999999999999999",
-                                        "0-1000000", "0-999999,5"};
+    static const char *const wrong[] = {"",
+                                        "a",
+                                        "1-",
+                                        "4-1",
+                                        "1-5x0",
+                                        "1-5x-1",
+                                        "1,",
+                                        ",1",
+                                        "1 -3",
+                                        "1.5",
+                                        "1x2",
+                                        " 1",
+                                        "1-2-3",
+                                        "0x10",
+                                        "--1",
+                                        "1-5x",
+                                        "1,,2",
+                                        "1;2",
+                                        "9999999999999999999",
+                                        "0-1000000",
+                                        "0-999999,5"};
     (void)state;
     for (size_t i = 0; i < WO_COUNT(wrong); i++) {
         wo_frames frames;
@@ -70,7 +87,7 @@ static void test_frames_refused(void **state)
     }
 }
 
-/* -------------------------------------------------------------------------------------------- JSON */
+/* ----------------------------------------------------------------------------------------- JSON */
 
 /* What the writer makes of the calls in fill, as a malloc-ed string. */
 static char *written(void (*fill)(wo_json *json))
@@ -144,8 +161,8 @@ static void test_json_round_trip(void **state)
 static void test_json_paths(void **state)
 {
     static const char text[] = "{\"a\": {\"b\": [10, {\"c\": \"x.y\"}]}, \"ab\": 1}";
-    static const char *const missing[] = {"b",     "a.c",   "a.b.2",  "a.b.x", "a.b.-1", "a.b.0.c",
-                                          "a.",    ".a",    "a..b",   "ab.0",  "a.b.1.c.d", "a.b.+1"};
+    static const char *const missing[] = {"b",  "a.c", "a.b.2", "a.b.x", "a.b.-1",    "a.b.0.c",
+                                          "a.", ".a",  "a..b",  "ab.0",  "a.b.1.c.d", "a.b.+1"};
     (void)state;
     check_value(text, "", text);
     check_value(text, "a.b.0", "10");
@@ -160,11 +177,12 @@ static void test_json_paths(void **state)
 
 static void test_json_validity(void **state)
 {
-    static const char *const good[] = {"0", "-0.5e+3", "\"\\u00e4\"", "[]", " {} ", "[[],{}]",
-                                       "null", "{\"a\":[true,false]}"};
-    static const char *const bad[] = {"",    "01",   "1.",    ".5",      "+1",  "1e",   "nan", "tru",
-                                      "[1,]", "{,}",  "{a:1}", "{\"a\"}", "[1 2]", "\"",  "\"\\x\"",
-                                      "\"\\u12g4\"", "[", "{} {}", "\"a\nb\"", "]"};
+    static const char *const good[] = {"0",    "-0.5e+3", "\"\\u00e4\"", "[]",
+                                       " {} ", "[[],{}]", "null",        "{\"a\":[true,false]}"};
+    static const char *const bad[] = {
+        "",        "01",          "1.",  ".5",    "+1",       "1e",    "nan",
+        "tru",     "[1,]",        "{,}", "{a:1}", "{\"a\"}",  "[1 2]", "\"",
+        "\"\\x\"", "\"\\u12g4\"", "[",   "{} {}", "\"a\nb\"", "]"};
     (void)state;
     for (size_t i = 0; i < WO_COUNT(good); i++)
         assert_true(wo_json_valid(good[i]));
@@ -177,7 +195,7 @@ static void test_json_validity(void **state)
     assert_false(wo_json_valid(deep)); /* refused, not overflowed */
 }
 
-/* --------------------------------------------------------------------------------------- arguments */
+/* ------------------------------------------------------------------------------------ arguments */
 
 static const wo_option test_options[] = {
     {"--output", "-o", "FILE", "Where to.", false},
@@ -232,10 +250,14 @@ static void test_args(void **state)
 
 static void test_args_refused(void **state)
 {
-    const char *const *const wrong[] = {
-        WORDS("a", "--ouput", "x"), WORDS("a", "--output"), WORDS("a", "--output", "--json"),
-        WORDS("a", "-o", "x", "-o", "y"), WORDS("a", "--json=1"), WORDS("a", "-x"),
-        WORDS("--json"), WORDS("a", "b", "c")};
+    const char *const *const wrong[] = {WORDS("a", "--ouput", "x"),
+                                        WORDS("a", "--output"),
+                                        WORDS("a", "--output", "--json"),
+                                        WORDS("a", "-o", "x", "-o", "y"),
+                                        WORDS("a", "--json=1"),
+                                        WORDS("a", "-x"),
+                                        WORDS("--json"),
+                                        WORDS("a", "b", "c")};
     (void)state;
     for (size_t i = 0; i < WO_COUNT(wrong); i++) {
         wo_args args;
@@ -290,11 +312,11 @@ static void test_near_words(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_frames),          cmocka_unit_test(test_frames_summary),
-        cmocka_unit_test(test_frames_refused),  cmocka_unit_test(test_json_round_trip),
-        cmocka_unit_test(test_json_paths),      cmocka_unit_test(test_json_validity),
-        cmocka_unit_test(test_args),            cmocka_unit_test(test_args_refused),
-        cmocka_unit_test(test_numbers),         cmocka_unit_test(test_near_words),
+        cmocka_unit_test(test_frames),         cmocka_unit_test(test_frames_summary),
+        cmocka_unit_test(test_frames_refused), cmocka_unit_test(test_json_round_trip),
+        cmocka_unit_test(test_json_paths),     cmocka_unit_test(test_json_validity),
+        cmocka_unit_test(test_args),           cmocka_unit_test(test_args_refused),
+        cmocka_unit_test(test_numbers),        cmocka_unit_test(test_near_words),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

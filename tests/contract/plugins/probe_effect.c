@@ -14,7 +14,7 @@ struct wo_plan {
     wo_geometry geometry;
     wo_rect window;
     wo_image inputs[PROBE_CLIPS];
-    wo_alpha alpha;
+    wo_alpha alpha[PROBE_CLIPS];
     int32_t rx, ry;
     float *weights; /* only there to be allocated */
 };
@@ -140,6 +140,11 @@ static const wo_clip clips[PROBE_CLIPS] = {
                     .components = WO_COMPONENT_ALPHA,
                     .optional = true,
                     .mask = true},
+    [PROBE_EXTRA] = {.name = "Extra",
+                     .label = "Extra layer",
+                     .help = "Laid over the picture.",
+                     .components = WO_COMPONENT_RGB | WO_COMPONENT_RGBA,
+                     .optional = true},
 };
 
 static int32_t reach(double radius, double scale)
@@ -190,7 +195,7 @@ static wo_status plan_create(const wo_context *context, const void *p, const wo_
     memcpy(&plan->params, p, sizeof plan->params);
     plan->geometry = args->geometry;
     plan->window = args->window;
-    plan->alpha = args->alpha[PROBE_SOURCE];
+    memcpy(plan->alpha, args->alpha, sizeof plan->alpha);
     memcpy(plan->inputs, args->inputs, sizeof plan->inputs);
     plan->rx = reach(plan->params.radius, args->geometry.render_scale);
     plan->ry =
@@ -218,12 +223,13 @@ static int plan_print(const wo_plan *plan, char *buffer, size_t size)
     return snprintf(
         buffer, size,
         "format=%d,%d,%d,%d\nextent=%d,%d,%d,%d\nwindow=%d,%d,%d,%d\nscale=%.6f\nstretch=%.6f\n"
-        "connected=%d%d%d\npixels=%d%d%d\nalpha=%d\nreach=%d,%d\nworkers=%u\nnote=%s\n",
+        "connected=%d%d%d%d\npixels=%d%d%d%d\nalpha=%d\nreach=%d,%d\nworkers=%u\nnote=%s\n",
         g->format.x1, g->format.y1, g->format.x2, g->format.y2, g->extent.x1, g->extent.y1,
         g->extent.x2, g->extent.y2, plan->window.x1, plan->window.y1, plan->window.x2,
         plan->window.y2, g->render_scale, g->pixel_stretch, g->connected[0], g->connected[1],
-        g->connected[2], in[0].data ? in[0].components : 0, in[1].data ? in[1].components : 0,
-        in[2].data ? in[2].components : 0, (int)plan->alpha, plan->rx, plan->ry,
+        g->connected[2], g->connected[3], in[0].data ? in[0].components : 0,
+        in[1].data ? in[1].components : 0, in[2].data ? in[2].components : 0,
+        in[3].data ? in[3].components : 0, (int)plan->alpha[0], plan->rx, plan->ry,
         wo_workers(&plan->context), plan->params.note);
 }
 
@@ -233,14 +239,16 @@ static int32_t clamp(int32_t value, int32_t low, int32_t high)
 }
 
 /* Premultiplied RGBA of the nearest pixel there is. */
-static void fetch(const wo_plan *plan, const wo_image *image, int32_t x, int32_t y, double rgba[4])
+static void fetch(const wo_plan *plan, int clip, int32_t x, int32_t y, double rgba[4])
 {
+    const wo_image *const image = &plan->inputs[clip];
+    const wo_alpha alpha = plan->alpha[clip];
     const float *const at = wo_image_at(image, clamp(x, image->bounds.x1, image->bounds.x2 - 1),
                                         clamp(y, image->bounds.y1, image->bounds.y2 - 1));
     for (int i = 0; i < 3; i++)
         rgba[i] = at[image->components == 1 ? 0 : i];
-    rgba[3] = image->components == 4 && plan->alpha != WO_ALPHA_OPAQUE ? (double)at[3] : 1;
-    if (image->components == 4 && plan->alpha == WO_ALPHA_UNPREMULTIPLIED)
+    rgba[3] = image->components == 4 && alpha != WO_ALPHA_OPAQUE ? (double)at[3] : 1;
+    if (image->components == 4 && alpha == WO_ALPHA_UNPREMULTIPLIED)
         for (int i = 0; i < 3; i++)
             rgba[i] *= rgba[3];
 }
@@ -250,7 +258,7 @@ static double single(const wo_plan *plan, int clip, int32_t x, int32_t y, double
     double rgba[4];
     if (!plan->inputs[clip].data)
         return otherwise;
-    fetch(plan, &plan->inputs[clip], x, y, rgba);
+    fetch(plan, clip, x, y, rgba);
     return rgba[0];
 }
 
@@ -258,10 +266,10 @@ static void pixel(const wo_plan *plan, int32_t x, int32_t y, float *out)
 {
     const probe_params *const p = &plan->params;
     double sum[4] = {0, 0, 0, 0}, here[4], rgba[4];
-    fetch(plan, &plan->inputs[PROBE_SOURCE], x, y, here);
+    fetch(plan, PROBE_SOURCE, x, y, here);
     for (int32_t j = -plan->ry; j <= plan->ry; j++)
         for (int32_t i = -plan->rx; i <= plan->rx; i++) {
-            fetch(plan, &plan->inputs[PROBE_SOURCE], x + i, y + j, rgba);
+            fetch(plan, PROBE_SOURCE, x + i, y + j, rgba);
             for (int k = 0; k < 4; k++)
                 sum[k] += rgba[k];
         }
@@ -274,8 +282,11 @@ static void pixel(const wo_plan *plan, int32_t x, int32_t y, float *out)
     for (int k = 0; k < 3; k++)
         sum[k] = sum[k] / area * p->tint[k] + add[k];
     sum[3] /= area;
+    memset(rgba, 0, sizeof rgba);
+    if (plan->inputs[PROBE_EXTRA].data)
+        fetch(plan, PROBE_EXTRA, x, y, rgba);
     for (int k = 0; k < 4; k++)
-        out[k] = (float)(here[k] + (sum[k] - here[k]) * mask);
+        out[k] = (float)((here[k] + (sum[k] - here[k]) * mask) * (1 - rgba[3]) + rgba[k]);
 }
 
 typedef struct work {

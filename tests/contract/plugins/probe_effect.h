@@ -26,7 +26,7 @@ typedef struct probe_params {
     char note[WO_PARAM_STRING_SIZE];
 } probe_params;
 
-enum { PROBE_SOURCE, PROBE_DEPTH, PROBE_MASK, PROBE_CLIPS };
+enum { PROBE_SOURCE, PROBE_DEPTH, PROBE_MASK, PROBE_EXTRA, PROBE_CLIPS };
 
 extern const wo_effect probe_effect;
 
