@@ -14,11 +14,10 @@ static int32_t floor_div(int32_t x, int32_t d)
 typedef struct take_job {
     wo_sheet *sheets;
     size_t sheet_count;
-    wo_rect area;
     const wo_lens *lens;
     wo_highlights *out;
-    size_t *counts; /* [tiles] */
-    bool fill;
+    wo_rect tiles;   /* of counts: one more on all sides than out->tiles */
+    size_t *counts;
 } take_job;
 
 /* Vergences of highlights are rounded to steps of 1/QUANTUM px of blur, so that few shares are worked
@@ -55,54 +54,90 @@ static double cached_share(share_cache *cache, const wo_lens *lens, float v, flo
     return cache->share[at] = share(lens, v, reach);
 }
 
+/* One pixel of a sheet that is a highlight, or not. */
+static bool is_highlight(const take_job *job, const wo_sheet *sheet, size_t at, float *v,
+                         float *peak, double *reach)
+{
+    const float *c = sheet->c[at];
+    *peak = fmaxf(c[0], fmaxf(c[1], c[2]));
+    if (!(*peak > WO_HIGHLIGHT_LEVEL) || isnan(sheet->v[at]))
+        return false;
+    const double step = job->lens->px_per_dioptre * QUANTUM;
+    *v = (float)(rint(sheet->v[at] * step) / step);
+    *reach = job->lens->reach(job->lens->self, *v, *v);
+    return *reach >= WO_HIGHLIGHT_RADIUS;
+}
+
+static wo_rect tile_of(wo_rect tiles, size_t index)
+{
+    const int32_t columns = wo_rect_width(tiles);
+    const int32_t tx = tiles.x1 + (int32_t)(index % (size_t)columns);
+    const int32_t ty = tiles.y1 + (int32_t)(index / (size_t)columns);
+    return (wo_rect){tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT, (tx + 1) * WO_TILE_WIDTH,
+                     (ty + 1) * WO_TILE_HEIGHT};
+}
+
+static void count_tile(void *user, size_t index, unsigned worker)
+{
+    (void)worker;
+    take_job *job = user;
+    float v;
+    float peak;
+    double reach;
+    for (size_t s = 0; s < job->sheet_count; s++) {
+        const wo_sheet *sheet = &job->sheets[s];
+        const wo_rect r = wo_rect_intersect(tile_of(job->tiles, index), sheet->area);
+        const int32_t w = wo_rect_width(sheet->area);
+        for (int32_t y = r.y1; sheet->any && y < r.y2; y++)
+            for (int32_t x = r.x1; x < r.x2; x++) {
+                const size_t at = (size_t)((y - sheet->area.y1) * w + x - sheet->area.x1);
+                job->counts[index] += is_highlight(job, sheet, at, &v, &peak, &reach);
+            }
+    }
+}
+
 static void take_tile(void *user, size_t index, unsigned worker)
 {
     (void)worker;
     take_job *job = user;
-    const wo_rect tiles = job->out->tiles;
-    const int32_t columns = wo_rect_width(tiles);
-    const int32_t tx = tiles.x1 + (int32_t)(index % (size_t)columns);
-    const int32_t ty = tiles.y1 + (int32_t)(index / (size_t)columns);
-    const wo_rect whole = {tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT, (tx + 1) * WO_TILE_WIDTH,
-                           (ty + 1) * WO_TILE_HEIGHT};
-    size_t found = 0;
-    wo_highlight *to = job->fill ? job->out->list + job->out->first[index] : NULL;
-    if (job->fill && job->out->first[index + 1] == job->out->first[index])
+    wo_highlight *to = job->out->list + job->out->first[index];
+    if (job->out->first[index + 1] == job->out->first[index])
         return;
     share_cache cache = {.count = 0};
-    const double step = job->lens->px_per_dioptre * QUANTUM;
     for (size_t s = 0; s < job->sheet_count; s++) {
         wo_sheet *sheet = &job->sheets[s];
-        const wo_rect r = wo_rect_intersect(wo_rect_intersect(whole, sheet->area), job->area);
+        const wo_rect r = wo_rect_intersect(tile_of(job->out->tiles, index), sheet->area);
+        const int32_t w = wo_rect_width(sheet->area);
         for (int32_t y = r.y1; sheet->any && y < r.y2; y++) {
             for (int32_t x = r.x1; x < r.x2; x++) {
-                const size_t at =
-                    (size_t)(y - sheet->area.y1) * (size_t)wo_rect_width(sheet->area) +
-                    (size_t)(x - sheet->area.x1);
-                const float v = (float)(rint(sheet->v[at] * step) / step);
-                float *c = sheet->c[at];
-                const float peak = fmaxf(c[0], fmaxf(c[1], c[2]));
-                if (!(peak > WO_HIGHLIGHT_LEVEL) || isnan(v))
-                    continue;
-                const double reach = job->lens->reach(job->lens->self, v, v);
-                if (!(reach >= WO_HIGHLIGHT_RADIUS))
-                    continue;
-                found++;
-                if (!to)
+                const size_t at = (size_t)((y - sheet->area.y1) * w + x - sheet->area.x1);
+                float v;
+                float peak;
+                double reach;
+                if (!is_highlight(job, sheet, at, &v, &peak, &reach))
                     continue;
                 const double part = cached_share(&cache, job->lens, v, (float)reach);
                 const float above = (peak - WO_HIGHLIGHT_LEVEL) / peak;
                 *to = (wo_highlight){x, y, v, (float)reach, {0}};
                 for (int k = 0; k < 3; k++) {
-                    to->c[k] = (float)(part * above) * c[k];
-                    c[k] -= above * c[k];
+                    to->c[k] = (float)(part * above) * sheet->c[at][k];
+                    sheet->c[at][k] -= above * sheet->c[at][k];
                 }
                 to++;
             }
         }
     }
-    if (!job->fill)
-        job->counts[index] = found > WO_HIGHLIGHT_CROWD ? 0 : found;
+}
+
+/* Bright pixels of a tile of out->tiles and the eight around it. */
+static size_t crowd(const take_job *job, int32_t tx, int32_t ty)
+{
+    size_t sum = 0;
+    const int32_t columns = wo_rect_width(job->tiles);
+    for (int32_t y = ty - 1; y <= ty + 1; y++)
+        for (int32_t x = tx - 1; x <= tx + 1; x++)
+            sum += job->counts[(size_t)((y - job->tiles.y1) * columns + x - job->tiles.x1)];
+    return sum;
 }
 
 wo_status wo_highlights_take(const wo_context *context, wo_sheet *sheets, size_t count,
@@ -112,28 +147,36 @@ wo_status wo_highlights_take(const wo_context *context, wo_sheet *sheets, size_t
     *highlights = (wo_highlights){0};
     if (!lens->connect || wo_rect_empty(area))
         return WO_OK;
-    highlights->tiles = (wo_rect){
+    const wo_rect tiles = {
         floor_div(area.x1, WO_TILE_WIDTH), floor_div(area.y1, WO_TILE_HEIGHT),
         floor_div(area.x2 - 1, WO_TILE_WIDTH) + 1, floor_div(area.y2 - 1, WO_TILE_HEIGHT) + 1};
-    const size_t tiles = (size_t)wo_rect_width(highlights->tiles) *
-                         (size_t)wo_rect_height(highlights->tiles);
-    take_job job = {sheets, count, area, lens, highlights, NULL, false};
+    highlights->tiles = tiles;
+    take_job job = {sheets, count, lens, highlights, wo_rect_grow(tiles, 1, 1), NULL};
+    const size_t counted =
+        (size_t)wo_rect_width(job.tiles) * (size_t)wo_rect_height(job.tiles);
+    const size_t taken = (size_t)wo_rect_width(tiles) * (size_t)wo_rect_height(tiles);
     wo_status status = WO_ERR_NOMEM;
-    if (!(job.counts = wo_new(context, error, tiles, sizeof *job.counts)))
+    if (!(job.counts = wo_new(context, error, counted, sizeof *job.counts)))
         goto done;
-    if (!(highlights->first = wo_new(context, error, tiles + 1, sizeof *highlights->first)))
+    if (!(highlights->first = wo_new(context, error, taken + 1, sizeof *highlights->first)))
         goto done;
-    wo_run(context, take_tile, &job, tiles);
-    for (size_t i = 0; i < tiles; i++)
-        highlights->first[i + 1] = highlights->first[i] + job.counts[i];
-    highlights->count = highlights->first[tiles];
+    wo_run(context, count_tile, &job, counted);
+    size_t i = 0;
+    for (int32_t ty = tiles.y1; ty < tiles.y2; ty++) {
+        for (int32_t tx = tiles.x1; tx < tiles.x2; tx++, i++) {
+            const size_t own = job.counts[(size_t)((ty - job.tiles.y1) * wo_rect_width(job.tiles) +
+                                                   tx - job.tiles.x1)];
+            highlights->first[i + 1] = highlights->first[i] +
+                                       (crowd(&job, tx, ty) <= WO_HIGHLIGHT_CROWD ? own : 0);
+        }
+    }
+    highlights->count = highlights->first[taken];
     if (highlights->count > 0) {
         highlights->list = wo_new(context, error, highlights->count, sizeof *highlights->list);
         if (!highlights->list)
             goto done;
-        job.fill = true;
-        wo_run(context, take_tile, &job, tiles);
-        for (size_t i = 0; i < highlights->count; i++)
+        wo_run(context, take_tile, &job, taken);
+        for (i = 0; i < highlights->count; i++)
             highlights->reach = fmaxf(highlights->reach, highlights->list[i].reach);
     }
     status = WO_OK;

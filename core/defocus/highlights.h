@@ -12,7 +12,7 @@
    noise, exact energy. (Sampling the lights in place of the lens, as path tracers do.) */
 #define WO_HIGHLIGHT_LEVEL  4.0f /* scene-linear; 1 is diffuse white */
 #define WO_HIGHLIGHT_RADIUS 2.0  /* px; smaller blur is left to the rays */
-#define WO_HIGHLIGHT_CROWD  256  /* brighter pixels in a tile than this are an area, not points */
+#define WO_HIGHLIGHT_CROWD  3072 /* more bright pixels than this in 3 x 3 tiles are an area, not points */
 
 typedef struct wo_highlight {
     int32_t x, y;
@@ -30,8 +30,8 @@ typedef struct wo_highlights {
     size_t *first; /* [tiles + 1] */
 } wo_highlights;
 
-/* Finds the highlights of the sheets within area (both are cut in the sheets) whose discs can reach
-   window. Does nothing for lenses that cannot connect. */
+/* Takes the highlights within area, on the grid of tiles, out of the sheets, which must also hold one
+   tile more on all sides, as far as the extent goes. Does nothing for lenses that cannot connect. */
 WO_NODISCARD wo_status wo_highlights_take(const wo_context *context, wo_sheet *sheets, size_t count,
                                           wo_rect area, const wo_lens *lens,
                                           wo_highlights *highlights, wo_error *error);

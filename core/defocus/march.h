@@ -56,6 +56,8 @@ typedef struct wo_march_kernels {
 const wo_march_kernels *wo_march_choose(int cpu);
 
 extern const wo_march_kernels wo_march_base;
+/* One pixel at a time in double precision: the slow twin, for tests and timing. */
+extern const wo_march_kernels wo_march_reference;
 #if defined(__x86_64__)
 extern const wo_march_kernels wo_march_avx2;
 #endif

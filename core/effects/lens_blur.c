@@ -74,8 +74,9 @@ wo_lens_blur_areas wo_lens_blur_plan_areas(const wo_lens_blur_setup *setup,
     const int32_t margin = (int32_t)ceil(reach) + WO_RAYS_MARGIN;
     const wo_rect tiles = on_grid(window, WO_TILE_WIDTH, WO_TILE_HEIGHT);
     areas.stack = wo_stack_grid(wo_rect_grow(tiles, margin, margin));
-    /* Highlights are told from areas of light by whole tiles. */
-    areas.layers = on_grid(areas.stack, WO_TILE_WIDTH, WO_TILE_HEIGHT);
+    /* Highlights are told from areas of light by whole tiles and those around them. */
+    areas.layers = wo_rect_grow(on_grid(areas.stack, WO_TILE_WIDTH, WO_TILE_HEIGHT),
+                                WO_TILE_WIDTH, WO_TILE_HEIGHT);
     if (setup->fill_levels > 0) {
         const int32_t fill = wo_sheet_fill_margin(setup->fill_levels);
         const int32_t grid = (int32_t)1 << setup->fill_levels;

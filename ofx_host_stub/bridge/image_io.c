@@ -305,6 +305,14 @@ static wo_status open_file(const char *path, int *fd, wo_error *error)
     return wo_fail(error, WO_ERR_IO, "%s is no ordinary file", wo_io_shown(path));
 }
 
+static wo_status read_other(const char *path, int fd, const wo_io_format *format, bool headers_only,
+                            wo_io_file **file, wo_error *error)
+{
+    if (!headers_only)
+        WO_TRY(wo_io_check_whole(path, fd, format, error));
+    return wo_io_oiio_read(path, format, headers_only, file, error);
+}
+
 wo_status wo_io_read(const char *path, bool headers_only, wo_io_file **file, wo_error *error)
 {
     static const unsigned char exr_mark[4] = {0x76, 0x2f, 0x31, 0x01};
@@ -324,7 +332,7 @@ wo_status wo_io_read(const char *path, bool headers_only, wo_io_file **file, wo_
     else if (got < 0)
         status = wo_fail(error, WO_ERR_IO, "cannot read %s", wo_io_shown(path));
     else if (format)
-        status = wo_io_oiio_read(path, format, headers_only, file, error);
+        status = read_other(path, fd, format, headers_only, file, error);
     else
         status = wo_fail(error, WO_ERR_FORMAT,
                          "%s is no EXR, and its extension is none of png tif tiff jpg jpeg dpx cin "

@@ -61,6 +61,10 @@ typedef struct wo_io_format {
 /* NULL when the extension is not known. */
 const wo_io_format *wo_io_format_of(const char *path);
 
+/* Refuses cut files that the library would take for whole ones. */
+WO_NODISCARD wo_status wo_io_check_whole(const char *path, int fd, const wo_io_format *format,
+                                         wo_error *error);
+
 /* io_exr_*.c. fd is open, positioned anywhere, and stays open; path is for texts and for the fallback
    below. Reading leaves a half-filled *file to the caller when it fails. */
 WO_NODISCARD wo_status wo_io_exr_read(const char *path, int fd, bool headers_only, wo_io_file **file,

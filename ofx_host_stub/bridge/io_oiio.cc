@@ -247,11 +247,14 @@ wo_status read_file(const char *path, const wo_io_format *format, bool headers_o
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format->library_name);
     if (!input)
         return failure(error, WO_ERR_UNSUPPORTED, path, words_of<OIIO::ImageInput>(nullptr));
+    /* Its own parallel way through TIFF strips trusts their sizes and crashes on damaged files;
+       libtiff's does not. */
+    OIIO::attribute("tiff:multithread", 0);
     OIIO::ImageSpec first, config;
     config.attribute("oiio:UnassociatedAlpha", 1);
-    input->threads(1);
     if (!input->open(path, first, config))
         return failure(error, WO_ERR_FORMAT, path, words_of(input.get()));
+    input->threads(1);
 
     int count = 1;
     while (count <= WO_IO_MAX_PARTS && input->seek_subimage(count, 0))

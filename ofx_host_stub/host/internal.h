@@ -18,6 +18,7 @@
 
      host.c      the host, its notes and violations        process.c  what the whole process shares
      scan.c      directories and bundles                   load.c     binaries, Load and Unload
+     binary.c    files that would bring dlopen down
      describe.c  descriptors -> plain structs              object.c   effects, clips, parameters
      props.c     property sets, prop_suite.c their suite   schema.c   which object has which
      actions.c   the one way into a plugin                 instance.c life of an instance
@@ -376,6 +377,8 @@ void wo_entry_destroy(wo_entry **entry);
 OfxStatus wo_entry_load(wo_entry *entry);
 void wo_entry_unload(wo_entry *entry);
 pthread_mutex_t *wo_entry_render_lock(wo_entry *entry);
+/* binary.c: what is wrong with a file that is to be mapped; NULL when nothing is */
+const char *wo_binary_fault(const char *path);
 /* describe.c */
 WO_NODISCARD bool wo_entry_describe(wo_entry *entry);
 void wo_entry_forget(wo_entry *entry); /* frees what describing made */

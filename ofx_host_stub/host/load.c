@@ -60,6 +60,11 @@ static wo_module *module_map(char *path, const char **why)
         return NULL;
     }
     module->path = path;
+    *why = wo_binary_fault(path);
+    if (*why) {
+        module_free(module);
+        return NULL;
+    }
     module->library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     if (!module->library) {
         const char *text = dlerror();

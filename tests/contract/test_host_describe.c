@@ -61,7 +61,7 @@ static void parameters_are_described(void **state)
     (void)state;
     wo_host *host = fixture_host("good", 1, true, 0);
     const wo_host_context_info *c = wo_host_find_context(wo_host_plugin_at(host, 0), "General");
-    assert_int_equal(c->param_count, 20);
+    assert_int_equal(c->param_count, 19);
     assert_string_equal(c->params[0].name, "main"); /* in the order of definition */
     assert_int_equal(c->params[0].kind, WO_HOST_PARAM_GROUP);
     assert_false(c->params[0].open);

@@ -121,7 +121,8 @@ static void numbers_are_read_and_printed(void **state)
     double value = 0;
     (void)state;
     for (size_t i = 0; i < WO_COUNT(values); i++) {
-        assert_int_equal(wo_print_number(text, sizeof text, values[i]), strlen(text));
+        const int length = wo_print_number(text, sizeof text, values[i]);
+        assert_int_equal(length, strlen(text));
         const char *end = wo_read_number(text, &value);
         assert_non_null(end);
         assert_int_equal(*end, 0);

@@ -283,23 +283,26 @@ static OfxStatus needed(OfxImageEffectHandle effect, OfxPropertySetHandle in,
     return ofx.prop->propSetDoubleN(out, "OfxImageClipPropRoI_Source", 4, grown);
 }
 
+static int is_connected(OfxImageClipHandle clip)
+{
+    OfxPropertySetHandle p = NULL;
+    int connected = 0;
+    ofx.effect->clipGetPropertySet(clip, &p);
+    ofx.prop->propGetInt(p, kOfxImageClipPropConnected, 0, &connected);
+    return connected;
+}
+
 static OfxStatus identity(OfxImageEffectHandle effect, OfxPropertySetHandle in,
                           OfxPropertySetHandle out)
 {
     double time = 0, gain = 0;
-    int invert = 0, connected = 0;
-    OfxPropertySetHandle mask = NULL, source = NULL;
+    int invert = 0;
     const state *s = state_of(effect);
     ofx.prop->propGetDouble(in, kOfxPropTime, 0, &time);
     ofx.param->paramGetValueAtTime(s->gain, time, &gain);
     ofx.param->paramGetValueAtTime(s->invert, time, &invert);
-    ofx.effect->clipGetPropertySet(s->mask, &mask);
-    ofx.prop->propGetInt(mask, kOfxImageClipPropConnected, 0, &connected);
-    if (radius_at(effect, time) > 0 || gain != 1 || invert || connected)
-        return kOfxStatReplyDefault;
-    ofx.effect->clipGetPropertySet(s->source, &source);
-    ofx.prop->propGetInt(source, kOfxImageClipPropConnected, 0, &connected);
-    if (!connected)
+    if (radius_at(effect, time) > 0 || gain != 1 || invert || is_connected(s->mask) ||
+        !is_connected(s->source))
         return kOfxStatReplyDefault;
     return ofx.prop->propSetString(out, kOfxPropName, 0, kOfxImageEffectSimpleSourceClipName);
 }
@@ -313,7 +316,7 @@ typedef struct work {
     OfxRectI window;
     int rx, ry;
     float gain;
-    int invert;
+    int invert, masked;
     int rows_done;
 } work;
 
@@ -334,7 +337,7 @@ static void pixel(const work *w, int x, int y, float *to)
         sum *= w->gain / (float)((2 * w->rx + 1) * (2 * w->ry + 1));
         if (w->invert && c < 3)
             sum = 1 - sum;
-        if (w->mask->data)
+        if (w->masked) /* where the mask has no picture it is 0 */
             sum *= sample(w->mask, x, y, 0);
         to[c] = sum;
     }
@@ -389,6 +392,7 @@ static OfxStatus render(OfxImageEffectHandle effect, OfxPropertySetHandle in)
         return kOfxStatFailed;
     (void)picture_get(s->source, time, NULL, &source);
     (void)picture_get(s->mask, time, NULL, &mask);
+    w.masked = is_connected(s->mask);
     ofx.effect->imageMemoryLock(s->memory, &memory);
     ofx.thread->multiThreadNumCPUs(&cpus);
     const OfxStatus status = ofx.thread->multiThread(rows, cpus, &w);

@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#define _POSIX_C_SOURCE 200809L
+#include "image_io_private.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* Cut files that OpenImageIO's readers take for whole ones: they fill what is missing with grey
+   (JPEG) or leave it (DPX). */
+
+static wo_status cut_off(const char *path, wo_error *error)
+{
+    return wo_fail(error, WO_ERR_FORMAT, "%s: the file ends too early", wo_io_shown(path));
+}
+
+/* Reads exactly size bytes at offset. */
+static bool read_at(int fd, void *buffer, size_t size, uint64_t offset)
+{
+    size_t done = 0;
+    while (done < size) {
+        const ssize_t got =
+            pread(fd, (char *)buffer + done, size - done, (off_t)(offset + done));
+        if (got <= 0)
+            return false;
+        done += (size_t)got;
+    }
+    return true;
+}
+
+static uint32_t number(const unsigned char *at, int bytes, bool low_first)
+{
+    uint32_t value = 0;
+    for (int i = 0; i < bytes; i++)
+        value = value << 8 | at[low_first ? bytes - 1 - i : i];
+    return value;
+}
+
+/* Bytes of a line of count samples, at least. */
+static uint64_t dpx_line(uint64_t count, uint32_t bits, uint32_t packing)
+{
+    if (packing != 0 && bits == 10)
+        return (count + 2) / 3 * 4;
+    if (packing != 0 && bits == 12)
+        return count * 2;
+    return (count * bits + 7) / 8;
+}
+
+static wo_status check_dpx(const char *path, int fd, uint64_t size, wo_error *error)
+{
+    unsigned char head[812];
+    if (!read_at(fd, head, sizeof head, 0))
+        return cut_off(path, error);
+    const bool low_first = !memcmp(head, "XPDS", 4);
+    const uint32_t width = number(head + 772, 4, low_first);
+    const uint32_t height = number(head + 776, 4, low_first);
+    const uint32_t descriptor = head[800], bits = head[803];
+    const uint32_t packing = number(head + 804, 2, low_first);
+    const bool packed_runs = number(head + 806, 2, low_first) == 1;
+    const uint32_t start = number(head + 808, 4, low_first);
+    const uint32_t samples = descriptor == 50 ? 3 : descriptor == 51 || descriptor == 52 ? 4 : 1;
+    if (packed_runs || width > WO_MAX_SIDE || height > WO_MAX_SIDE)
+        return WO_OK;
+    const uint64_t line = dpx_line((uint64_t)width * samples, bits, packing);
+    return start + line * height <= size ? WO_OK : cut_off(path, error);
+}
+
+/* Position of the mark that ends the picture, behind the first scan's header; false when there is
+   none. Inside a scan 0xff is always followed by 0 or a mark. */
+static bool jpeg_ends(const unsigned char *bytes, size_t size)
+{
+    size_t at = 2;
+    while (at + 4 <= size) {
+        if (bytes[at] != 0xff)
+            return false;
+        const unsigned char mark = bytes[at + 1];
+        if (mark == 0xff) {
+            at++;
+            continue;
+        }
+        at += 2 + number(bytes + at + 2, 2, false);
+        if (mark == 0xda)
+            break;
+    }
+    for (; at + 1 < size; at++)
+        if (bytes[at] == 0xff && bytes[at + 1] == 0xd9)
+            return true;
+    return false;
+}
+
+static wo_status check_jpeg(const char *path, int fd, uint64_t size, wo_error *error)
+{
+    if (size > (uint64_t)1 << 31)
+        return wo_fail(error, WO_ERR_FORMAT, "%s: too large for a JPEG", wo_io_shown(path));
+    unsigned char *const bytes = malloc((size_t)size);
+    if (!bytes)
+        return wo_fail(error, WO_ERR_NOMEM, "no memory for %s", wo_io_shown(path));
+    const bool whole = read_at(fd, bytes, (size_t)size, 0) && jpeg_ends(bytes, (size_t)size);
+    free(bytes);
+    return whole ? WO_OK : cut_off(path, error);
+}
+
+wo_status wo_io_check_whole(const char *path, int fd, const wo_io_format *format, wo_error *error)
+{
+    struct stat about;
+    if (fstat(fd, &about))
+        return wo_fail(error, WO_ERR_IO, "cannot read %s", wo_io_shown(path));
+    if (!strcmp(format->library_name, "dpx"))
+        return check_dpx(path, fd, (uint64_t)about.st_size, error);
+    if (!strcmp(format->library_name, "jpeg"))
+        return check_jpeg(path, fd, (uint64_t)about.st_size, error);
+    return WO_OK;
+}
