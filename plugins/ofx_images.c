@@ -136,13 +136,13 @@ static wo_status fetch(wo_ofx_action *action, size_t clip, const OfxRectD *regio
 {
     const OfxStatus status = action->suites->effect->clipGetImage(
         action->clips[clip].handle, action->time, region, &image->handle);
+    if (status != kOfxStatOK)
+        image->handle = NULL;
     if (status == kOfxStatErrMemory)
         return wo_fail(&action->error, WO_ERR_NOMEM, "%s: the host has no memory for the image",
                        action->effect->clips[clip].name);
-    if (status != kOfxStatOK || !image->handle) {
-        image->handle = NULL; /* Failed means: take it as not there */
+    if (!image->handle) /* Failed means: take it as not there */
         return WO_OK;
-    }
     return inspect(action, action->effect->clips[clip].name, image);
 }
 

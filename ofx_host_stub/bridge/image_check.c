@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 /* Cut files that OpenImageIO's readers take for whole ones: they fill what is missing with grey
-   (JPEG) or leave it (DPX). */
+   (JPEG) or leave it (DPX). Of a cut PNG they take leave without tidying up. */
 
 static wo_status cut_off(const char *path, wo_error *error)
 {
@@ -67,8 +67,22 @@ static wo_status check_dpx(const char *path, int fd, uint64_t size, wo_error *er
     return start + line * height <= size ? WO_OK : cut_off(path, error);
 }
 
-/* Position of the mark that ends the picture, behind the first scan's header; false when there is
-   none. Inside a scan 0xff is always followed by 0 or a mark. */
+/* Chunks must follow each other up to one called IEND. */
+static wo_status check_png(const char *path, int fd, uint64_t size, wo_error *error)
+{
+    unsigned char head[8];
+    for (uint64_t at = 8; read_at(fd, head, sizeof head, at);) {
+        at += 12 + (uint64_t)number(head, 4, false);
+        if (at > size)
+            break;
+        if (!memcmp(head + 4, "IEND", 4))
+            return WO_OK;
+    }
+    return cut_off(path, error);
+}
+
+/* Is there a mark that ends the picture, behind the first scan's header? Inside a scan 0xff is always
+   followed by 0 or a mark. */
 static bool jpeg_ends(const unsigned char *bytes, size_t size)
 {
     size_t at = 2;
@@ -109,6 +123,8 @@ wo_status wo_io_check_whole(const char *path, int fd, const wo_io_format *format
         return wo_fail(error, WO_ERR_IO, "cannot read %s", wo_io_shown(path));
     if (!strcmp(format->library_name, "dpx"))
         return check_dpx(path, fd, (uint64_t)about.st_size, error);
+    if (!strcmp(format->library_name, "png"))
+        return check_png(path, fd, (uint64_t)about.st_size, error);
     if (!strcmp(format->library_name, "jpeg"))
         return check_jpeg(path, fd, (uint64_t)about.st_size, error);
     return WO_OK;

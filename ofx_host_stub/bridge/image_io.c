@@ -308,8 +308,7 @@ static wo_status open_file(const char *path, int *fd, wo_error *error)
 static wo_status read_other(const char *path, int fd, const wo_io_format *format, bool headers_only,
                             wo_io_file **file, wo_error *error)
 {
-    if (!headers_only)
-        WO_TRY(wo_io_check_whole(path, fd, format, error));
+    WO_TRY(wo_io_check_whole(path, fd, format, error));
     return wo_io_oiio_read(path, format, headers_only, file, error);
 }
 

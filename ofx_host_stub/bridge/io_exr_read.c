@@ -268,7 +268,7 @@ static wo_status read_chunks(wo_exr_source *source, exr_decode_pipeline_t *decod
 }
 
 /* A file of a few bytes must not make us allocate gigabytes: each chunk has 8 bytes in the table and
-   at least 8 of its own, and no compression here but DWA reaches 1 : 4096. */
+   at least 8 of its own, and no compression reaches 1 : 4096, or 1 : 65536 for DWA. */
 static wo_status check_plausible(const wo_exr_source *source)
 {
     int32_t chunks = 0;
@@ -282,7 +282,7 @@ static wo_status check_plausible(const wo_exr_source *source)
     const bool deep = source->storage == EXR_STORAGE_DEEP_SCANLINE ||
                       source->storage == EXR_STORAGE_DEEP_TILED;
     const uint64_t least = pixels * (deep ? 4 : source->pixel_bytes);
-    if (source->compression < EXR_COMPRESSION_DWAA && least / 4096 > file)
+    if (least / (source->compression < EXR_COMPRESSION_DWAA ? 4096 : 65536) > file)
         return damaged(source, "the file is too short for its picture");
     return WO_OK;
 }

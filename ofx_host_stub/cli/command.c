@@ -7,6 +7,7 @@
 #include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 static void print_message(const char *format, va_list list)
@@ -44,13 +45,24 @@ int wo_failure(const wo_error *error)
     return WO_EXIT_FAILURE;
 }
 
-static atomic_int interrupted_flag; /* lock-free, so a signal handler may write it */
+/* When the first interrupt came, in milliseconds; 0 = there was none. Lock-free, so a signal handler
+   may use it. */
+static atomic_llong interrupted_at;
+
+static long long now_ms(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (long long)now.tv_sec * 1000 + now.tv_nsec / 1000000 + 1;
+}
 
 static void on_interrupt(int number)
 {
-    if (interrupted_flag)
+    const long long first = atomic_load(&interrupted_at), now = now_ms();
+    if (first == 0)
+        atomic_store(&interrupted_at, now);
+    else if (now - first > 300) /* one interrupt may arrive twice: to us and to our group */
         _exit(128 + number);
-    interrupted_flag = 1;
 }
 
 void wo_interrupt_catch(void)
@@ -67,7 +79,7 @@ void wo_interrupt_catch(void)
 bool wo_interrupted(void *user)
 {
     (void)user;
-    return interrupted_flag != 0;
+    return atomic_load(&interrupted_at) != 0;
 }
 
 bool wo_bar_wanted(bool forced, bool forbidden)

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What an action may answer beside the failures every action may answer, and what a plugin may do in
-   it. */
+/* What an action may answer beside the failures every action may answer, and what a plugin may do
+   in it. */
 enum { OK = 1, DEFAULT = 2, MISSING = 4, UNLICENSED = 8, FORMAT = 16, ANY = 32 };
 enum { SETS = 1, IMAGES = 2 };
 
@@ -102,7 +102,7 @@ const char *wo_ofx_status_text(OfxStatus status)
     return "an unknown status";
 }
 
-wo_status wo_status_of(OfxStatus status)
+static wo_status status_of(OfxStatus status)
 {
     switch (status) {
     case kOfxStatOK:
@@ -159,9 +159,10 @@ OfxStatus wo_act(wo_entry *entry, wo_frame *frame, wo_props *in, wo_props *out)
     frame->thread_index = 0;
     frame->spawned = false;
     wo_frame_set(frame);
-    OfxStatus status = entry->plugin->mainEntry(
-        texts[frame->action], frame->object ? frame->object->handle : NULL,
-        in ? (OfxPropertySetHandle)in->handle : NULL, out ? (OfxPropertySetHandle)out->handle : NULL);
+    OfxStatus status =
+        entry->plugin->mainEntry(texts[frame->action], frame->object ? frame->object->handle : NULL,
+                                 in ? (OfxPropertySetHandle)in->handle : NULL,
+                                 out ? (OfxPropertySetHandle)out->handle : NULL);
     if (!legal(frame->action, status)) {
         wo_violate(entry->host, "it answers %s (%d)", wo_ofx_status_text(status), status);
         status = kOfxStatFailed;
@@ -171,7 +172,7 @@ OfxStatus wo_act(wo_entry *entry, wo_frame *frame, wo_props *in, wo_props *out)
         if (frame->action != WO_ACTION_RENDER)
             wo_messages_check_left(instance);
         if (status == kOfxStatErrFatal)
-            instance->fatal = true;
+            atomic_store(&instance->fatal, true);
     }
     wo_frame_set(frame->outer);
     return status;
@@ -181,7 +182,7 @@ wo_status wo_act_on(wo_host_instance *instance, wo_frame *frame, wo_props *in, w
                     OfxStatus *answer, wo_error *error)
 {
     frame->object = &instance->object;
-    if (instance->fatal)
+    if (atomic_load(&instance->fatal))
         return wo_fail(error, WO_ERR_LIBRARY, "%.80s has declared this instance broken",
                        instance->object.entry->info.identifier);
     if ((in && in->failed) || (out && out->failed))
@@ -193,15 +194,15 @@ wo_status wo_act_on(wo_host_instance *instance, wo_frame *frame, wo_props *in, w
     if (status == kOfxStatOK || status == kOfxStatReplyDefault)
         return WO_OK;
     pthread_mutex_lock(&instance->lock);
-    const wo_status failed = wo_fail(
-        error, wo_status_of(status), "%.60s: %s%s%.100s", wo_action_text(frame->action),
-        wo_ofx_status_text(status), instance->persistent ? ": " : "",
-        instance->persistent ? instance->persistent : "");
+    const wo_status failed =
+        wo_fail(error, status_of(status), "%.60s: %s%s%.100s", wo_action_text(frame->action),
+                wo_ofx_status_text(status), instance->persistent ? ": " : "",
+                instance->persistent ? instance->persistent : "");
     pthread_mutex_unlock(&instance->lock);
     return failed;
 }
 
-/* ---------------------------------------------------------------------------------------- changes */
+/* -------------------------------------------------------------------------------------- changes */
 
 void wo_mark_changed(wo_host_instance *instance, const char *param)
 {

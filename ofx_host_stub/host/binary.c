@@ -10,8 +10,8 @@
 #ifdef __linux__
 #include <elf.h>
 
-/* The loader maps what the headers promise without looking at the length of the file; a truncated one then
-   ends the process with SIGBUS. So look first. */
+/* The loader maps what the headers promise without looking at the length of the file; a truncated
+   one then ends the process with SIGBUS. So look first. */
 
 static const char *segment_fault(int file, off_t size, const Elf64_Ehdr *header)
 {

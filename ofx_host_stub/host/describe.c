@@ -14,7 +14,7 @@ static const struct {
     {kOfxImageEffectContextGenerator, "Generator"},
 };
 
-/* ------------------------------------------------------------------------------------------ checks */
+/* --------------------------------------------------------------------------------------- checks */
 
 static bool is_group(const wo_object *object, const char *name)
 {
@@ -63,8 +63,8 @@ static void check_params(const wo_object *object)
             const char *child = wo_props_text(&par->props, kOfxParamPropPageChild, k, "");
             if (!wo_object_param(object, child) && strcmp(child, kOfxParamPageSkipRow) != 0 &&
                 strcmp(child, kOfxParamPageSkipColumn) != 0)
-                wo_violate(NULL, "page \"%.80s\" holds \"%.80s\", which is no parameter",
-                           par->name, child);
+                wo_violate(NULL, "page \"%.80s\" holds \"%.80s\", which is no parameter", par->name,
+                           child);
         }
         check_default(par);
     }
@@ -117,7 +117,7 @@ static void check_descriptor(const wo_object *object)
     }
 }
 
-/* --------------------------------------------------------------------------------------- descriptors */
+/* ---------------------------------------------------------------------------------- descriptors */
 
 static void object_free(wo_object **object)
 {
@@ -169,8 +169,7 @@ static bool describe_context(wo_entry *entry, const char *context, wo_object **o
     wo_props_add_one(&in, kOfxImageEffectPropContext, WO_PROP_STRING, 1, false);
     wo_props_set_text(&in, kOfxImageEffectPropContext, 0, context);
     const bool ready = !object->props.failed && !in.failed;
-    wo_frame frame = {
-        .action = WO_ACTION_DESCRIBE_IN_CONTEXT, .object = object, .scale = {1, 1}};
+    wo_frame frame = {.action = WO_ACTION_DESCRIBE_IN_CONTEXT, .object = object, .scale = {1, 1}};
     if (ready)
         *status = wo_act(entry, &frame, &in, NULL);
     wo_props_clear(&in);
@@ -184,7 +183,7 @@ static bool describe_context(wo_entry *entry, const char *context, wo_object **o
     return ready;
 }
 
-/* ---------------------------------------------------------------------------------- plain structs */
+/* -------------------------------------------------------------------------------- plain structs */
 
 static unsigned component_bits(const wo_props *props)
 {
@@ -195,8 +194,7 @@ static unsigned component_bits(const wo_props *props)
            (wo_props_has_text(props, kOfxImageEffectPropSupportedComponents, kOfxImageComponentRGB)
                 ? WO_HOST_RGB
                 : 0u) |
-           (wo_props_has_text(props, kOfxImageEffectPropSupportedComponents,
-                              kOfxImageComponentRGBA)
+           (wo_props_has_text(props, kOfxImageEffectPropSupportedComponents, kOfxImageComponentRGBA)
                 ? WO_HOST_RGBA
                 : 0u);
 }
@@ -330,8 +328,8 @@ static bool fill_plugin(wo_entry *entry)
     info->tiles = wo_props_int(props, kOfxImageEffectPropSupportsTiles, 0, 1);
     info->multi_resolution = wo_props_int(props, kOfxImageEffectPropSupportsMultiResolution, 0, 1);
     info->temporal = wo_props_int(props, kOfxImageEffectPropTemporalClipAccess, 0, 0);
-    info->float_pixels = wo_props_has_text(props, kOfxImageEffectPropSupportedPixelDepths,
-                                           kOfxBitDepthFloat);
+    info->float_pixels =
+        wo_props_has_text(props, kOfxImageEffectPropSupportedPixelDepths, kOfxBitDepthFloat);
     info->colour_style = wo_props_text(props, kOfxImageEffectPropColourManagementStyle, 0, "");
     return ok;
 }
@@ -350,8 +348,11 @@ bool wo_entry_describe(wo_entry *entry)
                 wo_ofx_status_text(status));
         return false;
     }
-    wo_frame frame = {.outer = wo_frame_now(), .host = host, .entry = entry,
-                      .object = entry->descriptor, .action = WO_ACTION_DESCRIBE};
+    wo_frame frame = {.outer = wo_frame_now(),
+                      .host = host,
+                      .entry = entry,
+                      .object = entry->descriptor,
+                      .action = WO_ACTION_DESCRIBE};
     wo_frame_set(&frame);
     check_descriptor(entry->descriptor);
     wo_frame_set(frame.outer);
@@ -365,8 +366,7 @@ bool wo_entry_describe(wo_entry *entry)
             continue;
         ok = describe_context(entry, contexts[i].name, &entry->contexts[n], &status);
         if (ok && status == kOfxStatOK) {
-            ok = fill_context(&entry->context_infos[n], entry->contexts[n],
-                              contexts[i].short_name);
+            ok = fill_context(&entry->context_infos[n], entry->contexts[n], contexts[i].short_name);
             entry->context_count++;
         } else if (ok) {
             wo_note(host, "%s: %s does not describe itself as %s: %s", entry->bundle, identifier,

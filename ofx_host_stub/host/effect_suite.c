@@ -197,16 +197,11 @@ const void *wo_suite(const char *name, int version)
         int version;
         const void *table;
     } suites[] = {
-        {kOfxPropertySuite, 1, &wo_property_suite},
-        {kOfxImageEffectSuite, 1, &wo_effect_suite},
-        {kOfxParameterSuite, 1, &wo_parameter_suite},
-        {kOfxMemorySuite, 1, &wo_memory_suite},
-        {kOfxMultiThreadSuite, 1, &wo_thread_suite},
-        {kOfxMessageSuite, 1, &wo_message_suite_1},
-        {kOfxMessageSuite, 2, &wo_message_suite_2},
-        {kOfxProgressSuite, 1, &wo_progress_suite_1},
-        {kOfxProgressSuite, 2, &wo_progress_suite_2},
-        {kOfxTimeLineSuite, 1, &wo_timeline_suite},
+        {kOfxPropertySuite, 1, &wo_property_suite},   {kOfxImageEffectSuite, 1, &wo_effect_suite},
+        {kOfxParameterSuite, 1, &wo_parameter_suite}, {kOfxMemorySuite, 1, &wo_memory_suite},
+        {kOfxMultiThreadSuite, 1, &wo_thread_suite},  {kOfxMessageSuite, 1, &wo_message_suite_1},
+        {kOfxMessageSuite, 2, &wo_message_suite_2},   {kOfxProgressSuite, 1, &wo_progress_suite_1},
+        {kOfxProgressSuite, 2, &wo_progress_suite_2}, {kOfxTimeLineSuite, 1, &wo_timeline_suite},
         {kWideOpenReportSuite, 1, &wo_report_suite},
     };
     for (size_t i = 0; i < WO_COUNT(suites); i++)

@@ -71,7 +71,8 @@ void wo_note(wo_host *host, const char *format, ...)
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    (void)wo_texts_add(&host->notes, text); /* a note that is lost for lack of memory harms nobody */
+    (void)wo_texts_add(&host->notes,
+                       text); /* a note that is lost for lack of memory harms nobody */
 }
 
 static void violate(wo_host *host, const wo_frame *frame, const char *format, va_list args)
@@ -180,12 +181,12 @@ wo_status wo_host_create(const wo_host_config *config, wo_host **out, wo_error *
         return status;
     }
     for (size_t i = 0; i < config->directory_count; i++)
-        wo_scan_directory(host, config->directories[i], 0);
+        wo_scan_directory(host, config->directories[i], true);
     if (config->search_path) {
         const char *paths = getenv("OFX_PLUGIN_PATH");
         if (paths)
             wo_scan_paths(host, paths);
-        wo_scan_directory(host, "/usr/OFX/Plugins", 0);
+        wo_scan_directory(host, "/usr/OFX/Plugins", false);
     }
     *out = host;
     return WO_OK;
@@ -224,7 +225,7 @@ wo_status wo_host_scan(wo_host *host, const char *directory, wo_error *error)
     const size_t notes = host->notes.count;
     if (!directory || !*directory)
         return wo_fail(error, WO_ERR_ARGUMENT, "no directory to search");
-    wo_scan_directory(host, directory, 0);
+    wo_scan_directory(host, directory, true);
     for (size_t i = notes; i < host->notes.count; i++)
         if (strstr(host->notes.items[i], "out of memory"))
             return wo_fail(error, WO_ERR_NOMEM, "%s", host->notes.items[i]);
@@ -259,8 +260,8 @@ static void list_name(char *list, size_t size, const char *name)
         snprintf(list + used, size - used, ", ...");
 }
 
-wo_status wo_host_find_plugin(const wo_host *host, const char *name,
-                              const wo_host_plugin **plugin, wo_error *error)
+wo_status wo_host_find_plugin(const wo_host *host, const char *name, const wo_host_plugin **plugin,
+                              wo_error *error)
 {
     char list[180] = "";
     const wo_host_plugin *whole = NULL, *part = NULL;

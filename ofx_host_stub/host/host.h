@@ -25,7 +25,8 @@ extern "C" {
    Threads: scanning, describing and destroying a host: one thread per host. An instance is used by
    one thread at a time; different instances may be used by different threads at once. Functions
    that may be called from anywhere say "any thread". Callbacks are called on the thread that
-   called into the host, or on one of its pool's threads where said so.
+   called into the host, or on one of its pool's threads where said so. A callback that delivers
+   pixels may itself render another instance (a graph of plugins), but not of an UNSAFE plugin.
 
    Errors: functions that can fail return a wo_status and write a sentence into *error (may be
    NULL). Pointers given back live as long as the object they came from, unless said otherwise. */
@@ -48,7 +49,8 @@ typedef enum wo_host_message {
 enum {
     WO_HOST_NEGATIVE_ROWS = 1, /* row bytes are negative: the lowest row is last in memory */
     WO_HOST_PADDED_ROWS = 2,   /* rows are an odd number of floats apart */
-    WO_HOST_LARGER_IMAGES = 4  /* inputs reach a little further than was asked, where there is more */
+    WO_HOST_LARGER_IMAGES =
+        4 /* inputs reach a little further than was asked, where there is more */
 };
 
 typedef struct wo_host_config {
@@ -74,16 +76,18 @@ typedef struct wo_host_config {
 } wo_host_config;
 
 /* Makes a host and scans the directories of *config. Directories that do not exist and files that
-   are no plugins are no failure: each leaves a note (wo_host_note). *host is NULL after a failure. */
+   are no plugins are no failure: each leaves a note (wo_host_note). *host is NULL after a failure.
+ */
 WO_NODISCARD wo_status wo_host_create(const wo_host_config *config, wo_host **host,
                                       wo_error *error);
 
 /* Destroys instances that were forgotten, unloads the plugins, joins the threads. Takes NULL; sets
-   *host to NULL. */
+ *host to NULL. */
 void wo_host_destroy(wo_host **host);
 
-/* Destroys instances that were forgotten and unloads the plugins, so that what they left behind can be read
-   as violations. Afterwards descriptions, notes and violations can be read, nothing be made. */
+/* Destroys instances that were forgotten and unloads the plugins, so that what they left behind can
+   be read as violations. Afterwards descriptions, notes and violations can be read, nothing be
+   made. */
 void wo_host_unload(wo_host *host);
 
 /* Searches one more directory, and those below it, for NAME.ofx.bundle. Names that begin with '@'
@@ -95,9 +99,9 @@ WO_NODISCARD wo_status wo_host_scan(wo_host *host, const char *directory, wo_err
 size_t wo_host_note_count(const wo_host *host);
 const char *wo_host_note(const wo_host *host, size_t index);
 
-/* Breaches of the standard by plugins, in the order they happened, equal sentences once: "identifier:
-   action: what was done". The texts live until wo_host_violations_clear or wo_host_destroy. Any
-   thread. */
+/* Breaches of the standard by plugins, in the order they happened, equal sentences once:
+   "identifier: action: what was done". The texts live until wo_host_violations_clear or
+   wo_host_destroy. Any thread. */
 size_t wo_host_violation_count(wo_host *host);
 const char *wo_host_violation(wo_host *host, size_t index);
 void wo_host_violations_clear(wo_host *host);
@@ -135,16 +139,16 @@ typedef struct wo_host_param_info {
     const char *parent; /* name of its group, or "" */
     const char *type;   /* OFX name: "OfxParamTypeDouble" */
     wo_host_param_type kind;
-    int dimension;      /* numbers in a value; 0 for texts, groups, pages and buttons */
+    int dimension; /* numbers in a value; 0 for texts, groups, pages and buttons */
     double initial[4];
-    const char *initial_text; /* STRING, CUSTOM, STR_CHOICE; else "" */
+    const char *initial_text;    /* STRING, CUSTOM, STR_CHOICE; else "" */
     double min[4], max[4];       /* hard range */
     double ui_min[4], ui_max[4]; /* range of a slider */
     double increment;
-    int digits;                  /* behind the point */
-    const char *double_type;     /* "OfxParamDoubleTypeAngle" ...; "" when it is no double */
-    const char *string_mode;     /* "OfxParamStringIsFilePath" ...; "" when it is no string */
-    const char *const *choices;  /* labels of the choices */
+    int digits;                     /* behind the point */
+    const char *double_type;        /* "OfxParamDoubleTypeAngle" ...; "" when it is no double */
+    const char *string_mode;        /* "OfxParamStringIsFilePath" ...; "" when it is no string */
+    const char *const *choices;     /* labels of the choices */
     const char *const *choice_keys; /* STR_CHOICE: their keys; NULL for CHOICE */
     size_t choice_count;
     bool normalised; /* initial is in fractions of the project size */
@@ -172,7 +176,7 @@ typedef struct wo_host_clip_info {
 
 /* A plugin as it describes itself in one context. */
 typedef struct wo_host_context_info {
-    const char *name;  /* "OfxImageEffectContextFilter" */
+    const char *name;       /* "OfxImageEffectContextFilter" */
     const char *short_name; /* "Filter" */
     const wo_host_clip_info *clips;
     size_t clip_count;
@@ -192,8 +196,8 @@ typedef struct wo_host_plugin {
     const char *label;
     const char *group; /* "Filter/Blur", "" when it says nothing */
     const char *description;
-    const char *bundle; /* path of the .ofx.bundle */
-    const char *binary; /* path of the file inside */
+    const char *bundle;               /* path of the .ofx.bundle */
+    const char *binary;               /* path of the file inside */
     const char *const *context_names; /* full names of the contexts it supports, known or not */
     size_t context_name_count;
     const wo_host_context_info *contexts; /* those this host can run: Filter, General, Generator */
@@ -221,8 +225,7 @@ WO_NODISCARD wo_status wo_host_find_plugin(const wo_host *host, const char *name
 const wo_host_context_info *wo_host_find_context(const wo_host_plugin *plugin, const char *name);
 
 /* Parameter by name or script name; clip by name; NULL when there is none. */
-const wo_host_param_info *wo_host_find_param(const wo_host_context_info *context,
-                                             const char *name);
+const wo_host_param_info *wo_host_find_param(const wo_host_context_info *context, const char *name);
 const wo_host_clip_info *wo_host_find_clip(const wo_host_context_info *context, const char *name);
 
 /* Short word of a parameter type: "double", "choice" ... */
@@ -284,7 +287,8 @@ void wo_host_set_notify(wo_host_instance *instance, bool notify);
      2.8            integer, double; true/false/on/off/yes/no/1/0 for a boolean
      0.5,0.25       values of more dimensions; one number alone is taken for all of them
      hexagon        choice: its key, its label, or its index; case, blanks and signs do not matter
-     key@1:0,key@25:1.5     animation: key@frame:value, one for every key; the word key may be left out
+     key@1:0,key@25:1.5     animation: key@frame:value, one for every key; the word key may be left
+   out
                             ("@1:0,@25:1.5"); with more dimensions "key@1:0,0,key@25:10,4"
      any text       string, custom
 
@@ -336,8 +340,8 @@ typedef struct wo_host_request {
     wo_rect region;          /* pixels wanted, at that scale: the bounds of the image to fill */
 } wo_host_request;
 
-/* Where a clip's pixels come from. The struct is copied; user and the callbacks must stay valid until
-   the clip gets another source or the instance is destroyed. */
+/* Where a clip's pixels come from. The struct is copied; user and the callbacks must stay valid
+   until the clip gets another source or the instance is destroyed. */
 typedef struct wo_host_source {
     void *user;
     int32_t components; /* of the pixels that pixels() writes: 1, 3 or 4 */
@@ -352,10 +356,10 @@ typedef struct wo_host_source {
     /* Canonical rectangle that has pixels at this time. Any thread. */
     wo_status (*region)(void *user, double time, wo_host_region *region, wo_error *error);
 
-    /* Fills *image, whose memory, bounds (= request->region) and components are the host's; the memory
-       is zeroed, so what lies outside the picture may be left alone. WO_ERR_NOT_FOUND: no picture
-       at this time, plugins get black; any other failure makes the render fail with its text.
-       Any thread, also several at once. */
+    /* Fills *image, whose memory, bounds (= request->region) and components are the host's; the
+       memory is zeroed, so what lies outside the picture may be left alone. WO_ERR_NOT_FOUND: no
+       picture at this time, plugins get black; any other failure makes the render fail with its
+       text. Any thread, also several at once. */
     wo_status (*pixels)(void *user, const wo_host_request *request, const wo_image *image,
                         wo_error *error);
 } wo_host_source;
@@ -385,16 +389,16 @@ wo_status wo_host_still_region(void *still, double time, wo_host_region *region,
 wo_status wo_host_still_pixels(void *still, const wo_host_request *request, const wo_image *image,
                                wo_error *error);
 
-/* --------------------------------------------------------------- what a plugin says before pixels */
+/* ------------------------------------------------------------- what a plugin says before pixels */
 
 typedef struct wo_host_clip_preference {
     const char *clip;
     bool connected;
-    int32_t components;                   /* 1, 3, 4 */
+    int32_t components; /* 1, 3, 4 */
     double pixel_aspect;
-    const char *const *colourspaces;      /* the plugin's wishes, best first */
+    const char *const *colourspaces; /* the plugin's wishes, best first */
     size_t colourspace_count;
-    const char *colourspace;              /* what the clip carries now; "" = unset */
+    const char *colourspace; /* what the clip carries now; "" = unset */
 } wo_host_clip_preference;
 
 /* Answers of GetClipPreferences (and GetOutputColourspace), valid until the next call with this
@@ -412,7 +416,8 @@ WO_NODISCARD wo_status wo_host_get_preferences(wo_host_instance *instance,
                                                const wo_host_preferences **preferences,
                                                wo_error *error);
 
-/* Where the plugin has pixels, canonical and as whole pixels; an infinite region is cut to the project. */
+/* Where the plugin has pixels, canonical and as whole pixels; an infinite region is cut to the
+ * project. */
 WO_NODISCARD wo_status wo_host_get_region(wo_host_instance *instance, double time, double scale_x,
                                           double scale_y, wo_host_region *region, wo_rect *pixels,
                                           wo_error *error);
@@ -423,8 +428,8 @@ WO_NODISCARD wo_status wo_host_get_needed(wo_host_instance *instance, double tim
                                           double scale_y, wo_host_region region,
                                           wo_host_region *needed, size_t count, wo_error *error);
 
-/* Frames it needs of each clip at a time: [2 * i] first, [2 * i + 1] last of range i of a clip. Only the
-   first range of each clip is given. */
+/* Frames it needs of each clip at a time: [2 * i] first, [2 * i + 1] last of range i of a clip.
+   Only the first range of each clip is given. */
 WO_NODISCARD wo_status wo_host_get_frames_needed(wo_host_instance *instance, double time,
                                                  double (*ranges)[2], size_t count,
                                                  wo_error *error);
@@ -444,11 +449,12 @@ typedef enum wo_host_report {
 
 typedef struct wo_host_render_args {
     double time;
-    double scale_x, scale_y; /* 0 < scale <= 1 as a rule; 1, 1 = full size */
-    wo_rect window;          /* pixels at that scale; empty = all the plugin has */
+    double scale_x, scale_y;         /* 0 < scale <= 1 as a rule; 1, 1 = full size */
+    wo_rect window;                  /* pixels at that scale; empty = all the plugin has */
     int32_t tile_width, tile_height; /* 0 = no tiles in this direction */
     unsigned parallel_tiles; /* tiles rendered at once, if the plugin is fully safe; 0 = 1 */
-    double first_frame, last_frame, frame_step; /* of the sequence this is part of; all 0 = this time */
+    double first_frame, last_frame,
+        frame_step; /* of the sequence this is part of; all 0 = this time */
     bool interactive;
     bool draft;
     wo_host_report report;
@@ -457,7 +463,10 @@ typedef struct wo_host_render_args {
     void (*publish)(void *user, const char *kind, const char *text);
 } wo_host_render_args;
 
-#define WO_HOST_RENDER_INIT {.scale_x = 1, .scale_y = 1}
+#define WO_HOST_RENDER_INIT                                                                        \
+    {                                                                                              \
+        .scale_x = 1, .scale_y = 1                                                                 \
+    }
 
 /* What happened; filled also when the render fails, as far as it got. */
 typedef struct wo_host_render_result {
@@ -466,9 +475,9 @@ typedef struct wo_host_render_result {
     bool identity;             /* nothing was rendered: Output is a copy of a clip */
     const char *identity_clip; /* NULL when it is not; lives as long as the instance's context */
     double identity_time;
-    unsigned tiles;            /* render actions sent */
-    double seconds;            /* wall clock inside render actions, summed over tiles */
-    int64_t input_pixels;      /* handed to the plugin */
+    unsigned tiles;       /* render actions sent */
+    double seconds;       /* wall clock inside render actions, summed over tiles */
+    int64_t input_pixels; /* handed to the plugin */
 } wo_host_render_result;
 
 /* Renders one picture with all calls in their legal order: GetClipPreferences (when something has
@@ -477,8 +486,10 @@ typedef struct wo_host_render_result {
 
    output: a view whose bounds hold the window and whose components are those of the preferences, or
    one with data = NULL: the host then allocates it and the caller frees it with
-   wo_host_image_free. Pixels of a given view outside the window stay untouched. After a failure
-   an allocated output is NULL again. result may be NULL. Returns WO_ABORTED when it was stopped. */
+   wo_host_image_free. Pixels of a given view outside the window stay untouched; those of the window
+   that the plugin has no picture for, and all of them with WO_HOST_REPORT_EXPLAIN, are 0. A plugin
+   that does no tiles renders all it has, and the window is cut out. After a failure an allocated
+   output is NULL again. result may be NULL. Returns WO_ABORTED when it was stopped. */
 WO_NODISCARD wo_status wo_host_render(wo_host_instance *instance, const wo_host_render_args *args,
                                       wo_image *output, wo_host_render_result *result,
                                       wo_error *error);

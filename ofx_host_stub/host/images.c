@@ -104,9 +104,9 @@ static wo_rect wanted(const wo_host_instance *instance, const wo_port *port, siz
         wo_props_int(&port->props, kOfxImageEffectPropSupportsTiles, 0, 1);
     wo_rect needed = all;
     if (frame->tile)
-        needed = wo_rect_intersect(wo_region_pixels(frame->tile->needed[index], frame->scale[0],
-                                                    frame->scale[1], aspect),
-                                   all);
+        needed = wo_rect_intersect(
+            wo_region_pixels(frame->tile->needed[index], frame->scale[0], frame->scale[1], aspect),
+            all);
     if (!tiles)
         return all;
     if (!region)
@@ -140,8 +140,8 @@ static OfxStatus input(wo_host_instance *instance, wo_handout *handout, size_t i
     if (status == WO_OK) {
         if (wo_region_infinite(defined))
             defined = wo_project_region(instance);
-        const wo_rect all = wo_region_pixels(defined, frame->scale[0], frame->scale[1],
-                                             port->source.pixel_aspect);
+        const wo_rect all =
+            wo_region_pixels(defined, frame->scale[0], frame->scale[1], port->source.pixel_aspect);
         wo_rect bounds = wanted(instance, port, index, time, region, all);
         if (host->config.layout & WO_HOST_LARGER_IMAGES && !wo_rect_empty(bounds))
             bounds = wo_rect_intersect(wo_rect_grow(bounds, LARGER_X, LARGER_Y), all);
@@ -199,8 +199,8 @@ OfxStatus wo_image_hand_out(wo_host_instance *instance, wo_port *port, double ti
         index++;
     handout->port = port;
     handout->serial = frame->serial;
-    wo_props_init(&handout->props, instance->object.host, WO_PROPS_NEVER,
-                  "an image of \"%.80s\"", port->name);
+    wo_props_init(&handout->props, instance->object.host, WO_PROPS_NEVER, "an image of \"%.80s\"",
+                  port->name);
     const OfxStatus status = handout->props.failed ? kOfxStatErrMemory
                              : port->output        ? output(handout, time)
                                                    : input(instance, handout, index, time, region);

@@ -78,6 +78,22 @@ static const wo_host_context_info *default_context(const wo_host_plugin *plugin)
     return NULL;
 }
 
+/* Puts an instance into the host's list; false when the plugin wants no other one beside it. */
+static bool link_instance(wo_host *host, wo_host_instance *instance, wo_entry *entry)
+{
+    const bool single =
+        wo_props_int(&entry->descriptor->props, kOfxImageEffectPluginPropSingleInstance, 0, 0);
+    pthread_mutex_lock(&host->lock);
+    const bool ok = !single || entry->instance_count == 0;
+    if (ok) {
+        instance->next = host->instances;
+        host->instances = instance;
+        entry->instance_count++;
+    }
+    pthread_mutex_unlock(&host->lock);
+    return ok;
+}
+
 wo_status wo_host_instance_create(wo_host *host, const wo_host_plugin *plugin, const char *context,
                                   const wo_host_project *project, wo_host_instance **out,
                                   wo_error *error)
@@ -94,10 +110,6 @@ wo_status wo_host_instance_create(wo_host *host, const wo_host_plugin *plugin, c
     if (!plugin->float_pixels)
         return wo_fail(error, WO_ERR_UNSUPPORTED, "%.80s does not take 32-bit float pixels",
                        plugin->identifier);
-    if (entry->instance_count > 0 && wo_props_int(&entry->descriptor->props,
-                                                  kOfxImageEffectPluginPropSingleInstance, 0, 0))
-        return wo_fail(error, WO_ERR_UNSUPPORTED, "%.80s wants one instance at a time",
-                       plugin->identifier);
     wo_host_project checked = *project;
     WO_TRY(check_project(&checked, error));
 
@@ -108,19 +120,18 @@ wo_status wo_host_instance_create(wo_host *host, const wo_host_plugin *plugin, c
     instance->project = checked;
     instance->time = checked.first_frame;
     instance->preferences_stale = instance->colourspace_stale = true;
+    if (!link_instance(host, instance, entry)) {
+        free(instance);
+        return wo_fail(error, WO_ERR_UNSUPPORTED, "%.80s wants one instance at a time",
+                       plugin->identifier);
+    }
     pthread_mutex_init(&instance->lock, NULL);
     pthread_mutex_init(&instance->publish_lock, NULL);
-    pthread_mutex_lock(&host->lock);
-    instance->next = host->instances;
-    host->instances = instance;
-    entry->instance_count++;
-    pthread_mutex_unlock(&host->lock);
 
     const wo_object *described = entry->contexts[info - plugin->contexts];
     instance->clip_preferences = calloc(info->clip_count, sizeof *instance->clip_preferences);
     bool ok = wo_object_init(&instance->object, host, entry, info->name, true);
-    ok = ok && wo_object_copy(&instance->object, described, &checked) &&
-         instance->clip_preferences;
+    ok = ok && wo_object_copy(&instance->object, described, &checked) && instance->clip_preferences;
     if (ok)
         describe_project(instance);
     if (!ok || instance->object.props.failed) {
@@ -160,10 +171,8 @@ void wo_host_instance_destroy(wo_host_instance **place)
     wo_object *object = &instance->object;
     wo_host *host = object->host;
     wo_entry *entry = object->entry;
-    wo_frame frame = {.action = WO_ACTION_DESTROY,
-                      .object = object,
-                      .time = instance->time,
-                      .scale = {1, 1}};
+    wo_frame frame = {
+        .action = WO_ACTION_DESTROY, .object = object, .time = instance->time, .scale = {1, 1}};
     if (instance->alive)
         (void)wo_act(entry, &frame, NULL, NULL);
     frame.outer = wo_frame_now();
@@ -209,15 +218,17 @@ wo_status wo_host_sync(wo_host_instance *instance, wo_error *error)
     return plain_action(instance, WO_ACTION_SYNC, error);
 }
 
-/* -------------------------------------------------------------------------------------------- clips */
+/* ---------------------------------------------------------------------------------------- clips */
 
 static wo_status check_source(const wo_port *port, const wo_host_source *source, wo_error *error)
 {
     if (!source->region || !source->pixels)
         return wo_fail(error, WO_ERR_ARGUMENT, "the source of %.60s lacks a function", port->name);
     if (source->components != 1 && source->components != 3 && source->components != 4)
-        return wo_fail(error, WO_ERR_ARGUMENT, "the source of %.60s has %d components; 1, 3 or 4 "
-                       "are legal", port->name, source->components);
+        return wo_fail(error, WO_ERR_ARGUMENT,
+                       "the source of %.60s has %d components; 1, 3 or 4 "
+                       "are legal",
+                       port->name, source->components);
     if ((unsigned)source->alpha > WO_HOST_UNPREMULTIPLIED || !(source->pixel_aspect > 0) ||
         !isfinite(source->pixel_aspect) || !(source->frame_rate > 0))
         return wo_fail(error, WO_ERR_RANGE,
@@ -226,12 +237,12 @@ static wo_status check_source(const wo_port *port, const wo_host_source *source,
     return WO_OK;
 }
 
-/* Components of those a clip takes that suit a source best. */
-static int32_t suited(const wo_port *port, int32_t components)
+int32_t wo_port_components(const wo_port *port)
 {
+    const int32_t components = port->connected ? port->source.components : 0;
     static const int32_t order[][3] = {{1, 3, 4}, {3, 4, 1}, {4, 3, 1}};
     const int32_t *best = components == 1 ? order[0] : components == 3 ? order[1] : order[2];
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; components > 0 && i < 3; i++)
         if (wo_props_has_text(&port->props, kOfxImageEffectPropSupportedComponents,
                               wo_components_text(best[i])))
             return best[i];
@@ -244,7 +255,7 @@ static void describe_source(wo_port *port)
                                          kOfxImageUnPreMultiplied};
     const wo_host_source *s = &port->source;
     wo_props *props = &port->props;
-    port->components = port->connected ? suited(port, s->components) : 0;
+    port->components = wo_port_components(port);
     wo_props_set_int(props, kOfxImageClipPropConnected, 0, port->connected);
     wo_props_set_text(props, kOfxImageEffectPropPixelDepth, 0,
                       port->connected ? kOfxBitDepthFloat : kOfxBitDepthNone);

@@ -32,7 +32,8 @@
 
    Locks, outermost first: the binaries' lock (load.c), an instance's lock, the process lock
    (process.c: handles, property sets that plugins can reach), the host's lock (violations). No lock
-   is held while a plugin or a callback of the caller runs, but for the binaries' lock in Load. */
+   is held while a plugin or a callback of the caller runs, but for the binaries' locks while one is
+   loaded, described or unloaded, and the render lock of plugins that are not thread-safe at all. */
 
 /* The native colour config the host offers, by name. */
 #define WO_NATIVE_CONFIG "ofx-native-v1.5_aces-v1.3_ocio-v2.3"
@@ -42,7 +43,7 @@
 typedef struct wo_object wo_object;
 typedef struct wo_entry wo_entry;
 
-/* ------------------------------------------------------------------------------------ properties */
+/* ----------------------------------------------------------------------------------- properties */
 
 typedef enum wo_prop_type {
     WO_PROP_INT,
@@ -95,7 +96,7 @@ typedef struct wo_props {
     char what[112]; /* "parameter 'mix'" */
     wo_prop *items;
     size_t count, capacity;
-    bool failed; /* some allocation failed: the set is not to be used */
+    bool failed;   /* some allocation failed: the set is not to be used */
     void *handout; /* the image this set describes, or NULL */
 } wo_props;
 
@@ -106,7 +107,8 @@ void wo_props_clear(wo_props *props); /* unregisters, frees; takes a zeroed set 
 void wo_props_add(wo_props *props, const wo_prop_row *rows, size_t count);
 void wo_props_add_one(wo_props *props, const char *name, wo_prop_type type, int count,
                       bool plugin_writes);
-void wo_props_copy(wo_props *to, const wo_props *from); /* same names, types, values; none writable */
+void wo_props_copy(wo_props *to,
+                   const wo_props *from); /* same names, types, values; none writable */
 void wo_props_allow(wo_props *props, const char *name); /* the plugin may write it */
 
 wo_prop *wo_props_find(const wo_props *props, const char *name);
@@ -136,7 +138,7 @@ void wo_schema_clip_instance(wo_props *props);
 void wo_schema_image(wo_props *props);
 bool wo_schema_param(wo_props *props, const char *type, const char *name);
 
-/* --------------------------------------------------------------------------------------- process */
+/* -------------------------------------------------------------------------------------- process */
 
 typedef enum wo_handle_kind {
     WO_HANDLE_PROPS = 1,
@@ -153,18 +155,19 @@ void wo_process_unlock(void);
 
 /* NULL when there is no memory. Takes the process lock. */
 void *wo_handle_add(wo_handle_kind kind, void *object);
-/* The lock is held in these three. remove takes NULL. find gives NULL for a handle that is none. fault
-   says what is wrong with it: "NULL", "freed already", "of another kind", "unknown". */
+/* The lock is held in these three. remove takes NULL. find gives NULL for a handle that is none.
+   fault says what is wrong with it: "NULL", "freed already", "of another kind", "unknown". */
 void wo_handle_remove(void *handle);
 void *wo_handle_find(const void *handle, wo_handle_kind kind);
 const char *wo_handle_fault(const void *handle, wo_handle_kind kind);
 
-/* The host's side of OfxHost; one struct for the process, because a binary has one place to keep it. */
+/* The host's side of OfxHost; one struct for the process, because a binary has one place to keep
+ * it. */
 OfxHost *wo_process_ofx_host(void);
 WO_NODISCARD bool wo_process_enter(wo_host *host, const wo_host_config *config);
 void wo_process_leave(wo_host *host);
 
-/* ----------------------------------------------------------------------------------------- frames */
+/* --------------------------------------------------------------------------------------- frames */
 
 #define WO_ACTION_LIST(X)                                                                          \
     X(WO_ACTION_LOAD, kOfxActionLoad)                                                              \
@@ -222,7 +225,7 @@ bool wo_action_sets_params(wo_action action);
 bool wo_action_gets_images(wo_action action);
 const char *wo_action_text(wo_action action);
 
-/* -------------------------------------------------------------------------------------- the host */
+/* ------------------------------------------------------------------------------------- the host */
 
 typedef struct wo_pool wo_pool;
 typedef struct wo_module wo_module;
@@ -243,9 +246,9 @@ struct wo_host {
     wo_entry **entries;
     size_t entry_count, entry_capacity;
     wo_host_instance *instances;
-    atomic_uint image_counter; /* for unique identifiers */
+    atomic_uint image_counter;    /* for unique identifiers */
     atomic_uint_least64_t serial; /* of the last action; images remember the one they belong to */
-    wo_host *next;             /* process.c */
+    wo_host *next;                /* process.c */
 };
 
 /* Writes down a breach. host may be NULL: the host of the present action, or any. Takes the host's
@@ -264,7 +267,7 @@ bool wo_text_set(char **place, const char *text); /* keeps the old one on failur
 /* Room for one more element of size bytes: the same or a new array; NULL when out of memory. */
 void *wo_grow(void *array, size_t count, size_t *capacity, size_t size);
 
-/* --------------------------------------------------------------------------------------- objects */
+/* -------------------------------------------------------------------------------------- objects */
 
 typedef struct wo_key {
     double time;
@@ -353,9 +356,9 @@ const char *wo_read_number(const char *text, double *value);
 int wo_print_number(char *buffer, size_t size, double value);
 bool wo_words_match(const char *a, const char *b); /* but for case, blanks and signs */
 
-/* --------------------------------------------------------------------------------------- plugins */
+/* -------------------------------------------------------------------------------------- plugins */
 
-struct wo_entry { /* a plugin of one host */
+struct wo_entry {        /* a plugin of one host */
     wo_host_plugin info; /* its texts point into what follows */
     wo_host *host;
     wo_module *module;
@@ -383,11 +386,10 @@ const char *wo_binary_fault(const char *path);
 WO_NODISCARD bool wo_entry_describe(wo_entry *entry);
 void wo_entry_forget(wo_entry *entry); /* frees what describing made */
 /* scan.c */
-void wo_scan_directory(wo_host *host, const char *directory, int depth);
+void wo_scan_directory(wo_host *host, const char *directory, bool must_exist);
 void wo_scan_paths(wo_host *host, const char *paths);
-const char *wo_scan_architecture(char *buffer, size_t size);
 
-/* ------------------------------------------------------------------------------------- instances */
+/* ------------------------------------------------------------------------------------ instances */
 
 typedef struct wo_buffer { /* memory of one picture, a row of guard below and above it */
     unsigned char *memory;
@@ -402,15 +404,15 @@ typedef struct wo_handout { /* an image handle */
     struct wo_handout *next;
     wo_props props;
     wo_port *port;
-    uint64_t serial; /* of the action it was given in */
-    wo_buffer buffer;  /* inputs only */
+    uint64_t serial;  /* of the action it was given in */
+    wo_buffer buffer; /* inputs only */
 } wo_handout;
 
 struct wo_tile {
     wo_rect window;
     wo_host_region *needed; /* by port */
     wo_buffer output;
-    bool direct; /* output is the caller's memory */
+    bool direct;              /* output is the caller's memory */
     wo_host_region canonical; /* region of definition */
     wo_rect region;           /* the same in pixels */
     const wo_host_render_args *args;
@@ -422,7 +424,6 @@ struct wo_host_instance {
     wo_host_project project;
     double time; /* for paramGetValue outside of renders */
     bool alive;  /* CreateInstance has succeeded */
-    bool fatal;  /* the plugin has declared it dead */
     bool notify;
     bool preferences_stale, colourspace_stale;
     wo_host_preferences preferences;
@@ -438,19 +439,20 @@ struct wo_host_instance {
     /* any thread */
     pthread_mutex_t publish_lock;
     atomic_bool rendering, stop;
+    atomic_bool fatal; /* the plugin has declared it dead */
     atomic_int report;
     void *report_user;
     void (*publish)(void *user, const char *kind, const char *text);
     wo_host_instance *next;
 };
 
-/* Sends an action and checks the answer against the standard. frame gives object, action, time, scale
-   and tile; the rest is filled in. An illegal answer becomes a violation and kOfxStatFailed. */
+/* Sends an action and checks the answer against the standard. frame gives object, action, time,
+   scale and tile; the rest is filled in. An illegal answer becomes a violation and kOfxStatFailed.
+ */
 OfxStatus wo_act(wo_entry *entry, wo_frame *frame, wo_props *in, wo_props *out);
 /* The same for an instance with a text when the answer is no success. */
 WO_NODISCARD wo_status wo_act_on(wo_host_instance *instance, wo_frame *frame, wo_props *in,
                                  wo_props *out, OfxStatus *answer, wo_error *error);
-wo_status wo_status_of(OfxStatus status);
 const char *wo_ofx_status_text(OfxStatus status);
 /* Tells the plugin that a parameter or clip has changed; then what it has changed itself. */
 WO_NODISCARD wo_status wo_tell_changed(wo_host_instance *instance, const char *type,
@@ -459,6 +461,10 @@ void wo_mark_changed(wo_host_instance *instance, const char *param);
 
 /* preferences.c: clip preferences and colourspaces, when they are stale */
 WO_NODISCARD wo_status wo_prepare(wo_host_instance *instance, wo_error *error);
+
+/* instance.c: components a clip gets unless the plugin wishes others: of those it takes, the ones
+   that suit its source best; 0 = not connected */
+int32_t wo_port_components(const wo_port *port);
 
 /* prepare.c */
 typedef struct wo_clip_name {
@@ -472,20 +478,20 @@ wo_rect wo_region_pixels(wo_host_region region, double scale_x, double scale_y, 
 wo_host_region wo_pixels_region(wo_rect pixels, double scale_x, double scale_y, double aspect);
 bool wo_region_infinite(wo_host_region region);
 wo_host_region wo_project_region(const wo_host_instance *instance);
-wo_host_region wo_region_join(wo_host_region a, wo_host_region b);
 WO_NODISCARD wo_status wo_port_region(wo_port *port, double time, wo_host_region *region,
                                       wo_error *error);
-WO_NODISCARD wo_status wo_ask_identity(wo_host_instance *instance, double time, const double scale[2],
-                                       wo_rect window, wo_port **port, double *other_time,
-                                       wo_error *error);
+WO_NODISCARD wo_status wo_ask_identity(wo_host_instance *instance, double time,
+                                       const double scale[2], wo_rect window, wo_port **port,
+                                       double *other_time, wo_error *error);
 
 /* images.c */
 WO_NODISCARD bool wo_buffer_make(wo_host *host, wo_buffer *buffer, wo_rect bounds,
                                  int32_t components);
 void wo_buffer_free(wo_buffer *buffer);
-bool wo_buffer_intact(const wo_buffer *buffer); /* guards and padding */
+bool wo_buffer_intact(const wo_buffer *buffer);  /* guards and padding */
 uint64_t wo_buffer_sum(const wo_buffer *buffer); /* of the pixels */
-/* Fills an output with a value no plugin writes; then looks for it inside and outside of the window. */
+/* Fills an output with a value no plugin writes; then looks for it inside and outside of the
+ * window. */
 void wo_buffer_blank(const wo_buffer *buffer);
 void wo_buffer_check(const wo_frame *frame, const wo_buffer *buffer, wo_rect window);
 WO_NODISCARD wo_status wo_fetch_pixels(wo_port *port, double time, const double scale[2],
@@ -522,7 +528,8 @@ bool wo_host_wants_stop(wo_host_instance *instance);
 /* Table of a suite, or NULL. */
 const void *wo_suite(const char *name, int version);
 
-/* Effect of a handle, with a violation naming the function when it is none. The lock is not held. */
+/* Effect of a handle, with a violation naming the function when it is none. The lock is not held.
+ */
 wo_object *wo_find_effect(const void *handle, const char *function);
 wo_host_instance *wo_find_instance(const void *handle, const char *function);
 

@@ -16,7 +16,8 @@ typedef struct loaded {
     bool has_lock;
 } loaded;
 
-/* A binary is mapped, and its plugins are loaded, once in a process, whatever the number of hosts. */
+/* A binary is mapped, and its plugins are loaded, once in a process, whatever the number of hosts.
+ */
 struct wo_module {
     wo_module *next;
     char *path; /* real, absolute */
@@ -27,9 +28,10 @@ struct wo_module {
 };
 
 static struct {
+    pthread_mutex_t describing; /* one plugin of the process at a time; taken before lock */
     pthread_mutex_t lock;
     wo_module *first;
-} modules = {.lock = PTHREAD_MUTEX_INITIALIZER};
+} modules = {.describing = PTHREAD_MUTEX_INITIALIZER, .lock = PTHREAD_MUTEX_INITIALIZER};
 
 typedef union symbol {
     void *address;
@@ -289,8 +291,10 @@ void wo_load_binary(wo_host *host, const char *bundle, const char *binary)
     pthread_mutex_unlock(&modules.lock);
     if (!module)
         return;
+    pthread_mutex_lock(&modules.describing);
     for (int i = 0; i < module->count; i++)
         load_plugin(host, module, i, bundle, binary);
+    pthread_mutex_unlock(&modules.describing);
     pthread_mutex_lock(&modules.lock);
     module_close(module);
     pthread_mutex_unlock(&modules.lock);

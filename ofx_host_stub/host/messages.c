@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ------------------------------------------------------------------------------------------ messages */
+/* ------------------------------------------------------------------------------------- messages */
 
 static bool type_of(const char *text, wo_host_message *type)
 {
@@ -41,7 +41,8 @@ static char *compose(const char *format, va_list args)
     return text;
 }
 
-/* The lawful beginning of all three functions. *instance may come back NULL: no handle was given. */
+/* The lawful beginning of all three functions. *instance may come back NULL: no handle was given.
+ */
 static OfxStatus begin(void *handle, const char *type_text, const char *format,
                        const char *function, wo_host_instance **instance, wo_host_message *type)
 {
@@ -129,7 +130,7 @@ const char *wo_host_persistent_message(const wo_host_instance *instance)
     return instance->persistent ? instance->persistent : "";
 }
 
-/* ------------------------------------------------------------------------------------------ progress */
+/* ------------------------------------------------------------------------------------- progress */
 
 static OfxStatus progress_start(wo_host_instance *instance, const char *label)
 {
@@ -227,7 +228,7 @@ bool wo_host_wants_stop(wo_host_instance *instance)
     return true;
 }
 
-/* ------------------------------------------------------------------------------------------ time line */
+/* ------------------------------------------------------------------------------------ time line */
 
 static OfxStatus get_time(void *handle, double *time)
 {
@@ -271,7 +272,7 @@ static OfxStatus get_bounds(void *handle, double *first, double *last)
     return kOfxStatOK;
 }
 
-/* -------------------------------------------------------------------------------------------- reports */
+/* -------------------------------------------------------------------------------------- reports */
 
 static int report_mode(void *handle)
 {

@@ -124,10 +124,10 @@ static wo_port *port_new(wo_object *object, const char *name)
     port->name = wo_text_copy(name);
     port->carries = wo_text_copy("");
     port->handle = wo_handle_add(WO_HANDLE_CLIP, port);
-    wo_props_init(&port->props, object->host,
-                  object->instance ? WO_PROPS_NEVER : WO_PROPS_DESCRIBE, "clip \"%.80s\"", name);
-    wo_port **ports = wo_grow(object->ports, object->port_count, &object->port_capacity,
-                              sizeof *object->ports);
+    wo_props_init(&port->props, object->host, object->instance ? WO_PROPS_NEVER : WO_PROPS_DESCRIBE,
+                  "clip \"%.80s\"", name);
+    wo_port **ports =
+        wo_grow(object->ports, object->port_count, &object->port_capacity, sizeof *object->ports);
     if (ports)
         object->ports = ports;
     if (!ports || !port->name || !port->carries || !port->handle || port->props.failed) {

@@ -109,7 +109,7 @@ static OfxStatus param_properties(OfxParamHandle handle, OfxPropertySetHandle *p
     return kOfxStatOK;
 }
 
-/* ----------------------------------------------------------------------------------------- reading */
+/* -------------------------------------------------------------------------------------- reading */
 
 static OfxStatus readable(OfxParamHandle handle, const char *function, wo_par **par)
 {
@@ -136,8 +136,8 @@ static OfxStatus give_numbers(const wo_par *par, const double values[4], const c
                               va_list args)
 {
     for (int i = 0; i < par->dimension; i++) {
-        void *place = wo_par_is_integer(par) ? (void *)va_arg(args, int *)
-                                             : (void *)va_arg(args, double *);
+        void *place =
+            wo_par_is_integer(par) ? (void *)va_arg(args, int *) : (void *)va_arg(args, double *);
         if (!place)
             return no_place(function);
         if (wo_par_is_integer(par))
@@ -234,7 +234,7 @@ static OfxStatus get_integral(OfxParamHandle handle, OfxTime from, OfxTime to, .
     return given;
 }
 
-/* ----------------------------------------------------------------------------------------- writing */
+/* -------------------------------------------------------------------------------------- writing */
 
 static OfxStatus allowed(const wo_object *object, const char *what, const char *function)
 {
@@ -268,15 +268,17 @@ static void note_change(wo_par *par)
 }
 
 /* Reads the values of a setter; numbers beyond the hard range are brought to its end. */
-static OfxStatus take(const wo_par *par, const char *function, double values[4],
-                      const char **text, va_list args)
+static OfxStatus take(const wo_par *par, const char *function, double values[4], const char **text,
+                      va_list args)
 {
     memset(values, 0, 4 * sizeof *values);
     *text = NULL;
     if (par->is_text) {
         *text = va_arg(args, const char *);
-        if (!*text) {
-            wo_violate(par->owner->host, "%s of \"%.80s\" to NULL", function, par->name);
+        if (!*text || (par->kind == WO_HOST_PARAM_STR_CHOICE &&
+                       !wo_props_has_text(&par->props, kOfxParamPropChoiceEnum, *text))) {
+            wo_violate(par->owner->host, "%s of \"%.80s\" to %.80s", function, par->name,
+                       *text ? *text : "NULL");
             return kOfxStatErrValue;
         }
         return kOfxStatOK;
@@ -342,7 +344,7 @@ static OfxStatus set_value_at(OfxParamHandle handle, OfxTime time, ...)
     return kOfxStatOK;
 }
 
-/* -------------------------------------------------------------------------------------------- keys */
+/* ----------------------------------------------------------------------------------------- keys */
 
 static OfxStatus key_count(OfxParamHandle handle, unsigned int *count)
 {

@@ -71,7 +71,8 @@ static int find_choice(const wo_par *par, const char *text)
     const int count = wo_props_count(&par->props, kOfxParamPropChoiceOption);
     const int keys = wo_props_count(&par->props, kOfxParamPropChoiceEnum);
     for (int i = 0; i < count; i++)
-        if ((i < keys && strcmp(wo_props_text(&par->props, kOfxParamPropChoiceEnum, i, ""), text) == 0) ||
+        if ((i < keys &&
+             strcmp(wo_props_text(&par->props, kOfxParamPropChoiceEnum, i, ""), text) == 0) ||
             strcmp(wo_props_text(&par->props, kOfxParamPropChoiceOption, i, ""), text) == 0)
             return i;
     double number = 0;
@@ -79,7 +80,8 @@ static int find_choice(const wo_par *par, const char *text)
     if (end && !*skip_blanks(end) && number >= 0 && number < count && number == floor(number))
         return (int)number;
     for (int i = 0; i < count; i++)
-        if ((i < keys && wo_words_match(wo_props_text(&par->props, kOfxParamPropChoiceEnum, i, ""), text)) ||
+        if ((i < keys &&
+             wo_words_match(wo_props_text(&par->props, kOfxParamPropChoiceEnum, i, ""), text)) ||
             wo_words_match(wo_props_text(&par->props, kOfxParamPropChoiceOption, i, ""), text))
             return i;
     return -1;
@@ -176,8 +178,8 @@ static wo_status read_value(const wo_par *par, const char *text, double values[4
     return WO_OK;
 }
 
-/* Start of the next "@frame:" at or after text; *lead is where it, with a comma and the word key before
-   it, begins. */
+/* Start of the next "@frame:" at or after text; *lead is where it, with a comma and the word key
+   before it, begins. */
 static const char *next_key(const char *text, const char **lead)
 {
     for (const char *at = strchr(text, '@'); at; at = strchr(at + 1, '@')) {
@@ -346,8 +348,8 @@ wo_status wo_host_param_get(wo_host_instance *instance, const char *name, double
     double all[4];
     WO_TRY(find(instance, name, true, &par, error));
     if (par->is_text || count != par->dimension)
-        return wo_fail(error, WO_ERR_ARGUMENT, "%.60s has %d numbers, not %d", name,
-                       par->dimension, count);
+        return wo_fail(error, WO_ERR_ARGUMENT, "%.60s has %d numbers, not %d", name, par->dimension,
+                       count);
     wo_par_at(par, time, all);
     memcpy(values, all, (size_t)count * sizeof *values);
     return WO_OK;

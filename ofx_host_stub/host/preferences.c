@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-/* --------------------------------------------------------------------------------- clip preferences */
+/* ----------------------------------------------------------------------------- clip preferences */
 
 static const char *const alpha_texts[] = {kOfxImageOpaque, kOfxImagePreMultiplied,
                                           kOfxImageUnPreMultiplied};
@@ -29,8 +29,7 @@ static wo_status check_connected(const wo_host_instance *instance, wo_error *err
 static int32_t default_output_components(const wo_host_instance *instance, const wo_port *output)
 {
     int32_t components = 4;
-    const wo_port *source =
-        wo_object_port(&instance->object, kOfxImageEffectSimpleSourceClipName);
+    const wo_port *source = wo_object_port(&instance->object, kOfxImageEffectSimpleSourceClipName);
     bool any = false, rgba = false;
     for (size_t i = 0; i < instance->object.port_count; i++) {
         const wo_port *port = instance->object.ports[i];
@@ -164,9 +163,12 @@ static wo_status ask_preferences(wo_host_instance *instance, wo_error *error)
     wo_host_preferences *p = &instance->preferences;
     wo_props in, out;
     wo_arguments(&in, &out, instance, instance->time, NULL);
+    for (size_t i = 0; i < object->port_count; i++)
+        if (!object->ports[i]->output)
+            object->ports[i]->components = wo_port_components(object->ports[i]);
     output->components = default_output_components(instance, output);
-    const double aspect = source && source->connected ? source->source.pixel_aspect
-                                                      : instance->project.pixel_aspect;
+    const double aspect =
+        source && source->connected ? source->source.pixel_aspect : instance->project.pixel_aspect;
     p->alpha = default_alpha(instance);
     p->frame_rate =
         source && source->connected ? source->source.frame_rate : instance->project.frame_rate;
@@ -204,7 +206,7 @@ static wo_status ask_preferences(wo_host_instance *instance, wo_error *error)
     return status;
 }
 
-/* ------------------------------------------------------------------------------------- colourspaces */
+/* --------------------------------------------------------------------------------- colourspaces */
 
 static wo_status carry(wo_port *port, const char *colourspace, wo_error *error)
 {
@@ -243,12 +245,12 @@ static wo_status ask_colourspace(wo_host_instance *instance, wo_port *output, co
     wo_frame frame = {.action = WO_ACTION_COLOURSPACE, .time = instance->time, .scale = {1, 1}};
     wo_status status = wo_act_on(instance, &frame, &in, &out, &answer, error);
     if (status == WO_OK)
-        status = carry(output,
-                       answer == kOfxStatOK
-                           ? resolve(instance, wo_props_text(&out, kOfxImageClipPropColourspace,
-                                                             0, first))
-                           : first,
-                       error);
+        status = carry(
+            output,
+            answer == kOfxStatOK
+                ? resolve(instance, wo_props_text(&out, kOfxImageClipPropColourspace, 0, first))
+                : first,
+            error);
     wo_props_clear(&in);
     wo_props_clear(&out);
     return status;
@@ -257,10 +259,9 @@ static wo_status ask_colourspace(wo_host_instance *instance, wo_port *output, co
 static wo_status negotiate_colour(wo_host_instance *instance, wo_error *error)
 {
     const char *first = "";
-    const bool managed =
-        strcmp(wo_props_text(&instance->object.props, kOfxImageEffectPropColourManagementStyle, 0,
-                             ""),
-               kOfxImageEffectColourManagementNone) != 0;
+    const bool managed = strcmp(wo_props_text(&instance->object.props,
+                                              kOfxImageEffectPropColourManagementStyle, 0, ""),
+                                kOfxImageEffectColourManagementNone) != 0;
     wo_port *output = wo_object_port(&instance->object, kOfxImageEffectOutputClipName);
     for (size_t i = 0; i < instance->object.port_count; i++) {
         wo_port *port = instance->object.ports[i];
@@ -314,4 +315,3 @@ wo_status wo_host_get_preferences(wo_host_instance *instance,
     *preferences = &instance->preferences;
     return WO_OK;
 }
-

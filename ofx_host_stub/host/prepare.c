@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ------------------------------------------------------------------------------------------- regions */
+/* -------------------------------------------------------------------------------------- regions */
 
 #define SNAP 1e-6 /* of a pixel: what rounding may have added on the way there and back */
 
@@ -21,10 +21,9 @@ wo_rect wo_region_pixels(wo_host_region r, double scale_x, double scale_y, doubl
 {
     if (!(r.x2 > r.x1 && r.y2 > r.y1))
         return (wo_rect){0, 0, 0, 0};
-    const wo_rect pixels = {to_pixel(floor(r.x1 * scale_x / aspect + SNAP)),
-                            to_pixel(floor(r.y1 * scale_y + SNAP)),
-                            to_pixel(ceil(r.x2 * scale_x / aspect - SNAP)),
-                            to_pixel(ceil(r.y2 * scale_y - SNAP))};
+    const wo_rect pixels = {
+        to_pixel(floor(r.x1 * scale_x / aspect + SNAP)), to_pixel(floor(r.y1 * scale_y + SNAP)),
+        to_pixel(ceil(r.x2 * scale_x / aspect - SNAP)), to_pixel(ceil(r.y2 * scale_y - SNAP))};
     return wo_rect_empty(pixels) ? (wo_rect){0, 0, 0, 0} : pixels;
 }
 
@@ -52,14 +51,13 @@ static bool region_empty(wo_host_region r)
     return !(r.x2 > r.x1 && r.y2 > r.y1);
 }
 
-wo_host_region wo_region_join(wo_host_region a, wo_host_region b)
+static wo_host_region join(wo_host_region a, wo_host_region b)
 {
     if (region_empty(a))
         return b;
     if (region_empty(b))
         return a;
-    return (wo_host_region){fmin(a.x1, b.x1), fmin(a.y1, b.y1), fmax(a.x2, b.x2),
-                            fmax(a.y2, b.y2)};
+    return (wo_host_region){fmin(a.x1, b.x1), fmin(a.y1, b.y1), fmax(a.x2, b.x2), fmax(a.y2, b.y2)};
 }
 
 static bool region_sane(wo_host_region r)
@@ -89,9 +87,8 @@ static void set_region(wo_props *props, const char *name, wo_host_region r)
 
 static wo_host_region get_region(const wo_props *props, const char *name)
 {
-    return (wo_host_region){
-        wo_props_double(props, name, 0, 0), wo_props_double(props, name, 1, 0),
-        wo_props_double(props, name, 2, 0), wo_props_double(props, name, 3, 0)};
+    return (wo_host_region){wo_props_double(props, name, 0, 0), wo_props_double(props, name, 1, 0),
+                            wo_props_double(props, name, 2, 0), wo_props_double(props, name, 3, 0)};
 }
 
 wo_clip_name wo_with_clip(const char *prefix, const wo_port *port)
@@ -115,7 +112,7 @@ void wo_arguments(wo_props *in, wo_props *out, wo_host_instance *instance, doubl
     wo_props_set_double(in, kOfxImageEffectPropRenderScale, 1, scale[1]);
 }
 
-/* ---------------------------------------------------------------------- region, needed, frames, domain */
+/* --------------------------------------------------------------- region, needed, frames, domain */
 
 static wo_status default_region(wo_host_instance *instance, double time, wo_host_region *region,
                                 wo_error *error)
@@ -129,15 +126,14 @@ static wo_status default_region(wo_host_instance *instance, double time, wo_host
         wo_port *port = instance->object.ports[i];
         const bool source = strcmp(port->name, kOfxImageEffectSimpleSourceClipName) == 0;
         const bool counts =
-            source ||
-            (!filter && !wo_props_int(&port->props, kOfxImageClipPropOptional, 0, 0));
+            source || (!filter && !wo_props_int(&port->props, kOfxImageClipPropOptional, 0, 0));
         if (!port->connected || !counts)
             continue;
         const wo_status status = wo_port_region(port, time, &one, error);
         if (status == WO_ERR_NOT_FOUND) /* no picture at this time */
             continue;
         WO_TRY(status);
-        all = wo_region_join(all, one);
+        all = join(all, one);
     }
     if (!region_empty(all))
         *region = all;
@@ -175,8 +171,8 @@ wo_status wo_host_get_region(wo_host_instance *instance, double time, double sca
     wo_props_clear(&out);
     WO_TRY(status);
     if (!region_sane(*region)) {
-        wo_violate_in(&frame, "the region is %g, %g to %g, %g", region->x1, region->y1,
-                   region->x2, region->y2);
+        wo_violate_in(&frame, "the region is %g, %g to %g, %g", region->x1, region->y1, region->x2,
+                      region->y2);
         *region = usual;
     }
     if (pixels) {
@@ -220,8 +216,8 @@ wo_status wo_host_get_needed(wo_host_instance *instance, double time, double sca
         needed[i] = get_region(&out, wo_with_clip("OfxImageClipPropRoI_", port).text);
         if (region_sane(needed[i]))
             continue;
-        wo_violate_in(&frame, "the region of interest of \"%.80s\" is %g, %g to %g, %g",
-                   port->name, needed[i].x1, needed[i].y1, needed[i].x2, needed[i].y2);
+        wo_violate_in(&frame, "the region of interest of \"%.80s\" is %g, %g to %g, %g", port->name,
+                      needed[i].x1, needed[i].y1, needed[i].x2, needed[i].y2);
         needed[i] = region;
     }
     wo_props_clear(&in);
@@ -243,7 +239,8 @@ wo_status wo_host_get_frames_needed(wo_host_instance *instance, double time, dou
         return WO_OK;
     wo_arguments(&in, &out, instance, time, NULL);
     for (size_t i = 0; i < count; i++) {
-        const wo_clip_name name = wo_with_clip("OfxImageClipPropFrameRange_", instance->object.ports[i]);
+        const wo_clip_name name =
+            wo_with_clip("OfxImageClipPropFrameRange_", instance->object.ports[i]);
         if (instance->object.ports[i]->output)
             continue;
         wo_props_add_one(&out, name.text, WO_PROP_DOUBLE, 0, true);
@@ -253,7 +250,8 @@ wo_status wo_host_get_frames_needed(wo_host_instance *instance, double time, dou
     wo_frame frame = {.action = WO_ACTION_FRAMES, .time = time, .scale = {1, 1}};
     const wo_status status = wo_act_on(instance, &frame, &in, &out, NULL, error);
     for (size_t i = 0; status == WO_OK && i < count; i++) {
-        const wo_clip_name name = wo_with_clip("OfxImageClipPropFrameRange_", instance->object.ports[i]);
+        const wo_clip_name name =
+            wo_with_clip("OfxImageClipPropFrameRange_", instance->object.ports[i]);
         ranges[i][0] = wo_props_double(&out, name.text, 0, time);
         ranges[i][1] = wo_props_double(&out, name.text, 1, time);
     }
@@ -320,8 +318,7 @@ wo_status wo_ask_identity(wo_host_instance *instance, double time, const double 
         *port = wo_object_port(&instance->object, name);
         *other_time = wo_props_double(&out, kOfxPropTime, 0, time);
         if (!*port || (*port)->output || !isfinite(*other_time)) {
-            wo_violate_in(&frame, "identity with \"%.80s\", which is no input clip",
-                       name);
+            wo_violate_in(&frame, "identity with \"%.80s\", which is no input clip", name);
             *port = NULL;
         }
     }

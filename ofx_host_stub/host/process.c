@@ -18,6 +18,7 @@ typedef struct slot {
 } slot;
 
 static struct {
+    pthread_mutex_t setup; /* hosts come and go one at a time; taken before lock */
     pthread_mutex_t lock;
     slot *slots;
     size_t count, capacity;
@@ -26,7 +27,8 @@ static struct {
     wo_host *hosts;
     OfxHost ofx_host;
     wo_props properties; /* of ofx_host */
-} process = {.lock = PTHREAD_MUTEX_INITIALIZER, .generation = 1};
+} process = {
+    .setup = PTHREAD_MUTEX_INITIALIZER, .lock = PTHREAD_MUTEX_INITIALIZER, .generation = 1};
 
 static _Thread_local const wo_frame *frame_now;
 
@@ -138,8 +140,8 @@ const char *wo_handle_fault(const void *handle, wo_handle_kind kind)
 static const void *fetch_suite(OfxPropertySetHandle host, const char *name, int version)
 {
     if (host != process.ofx_host.host || !name) {
-        wo_violate(NULL, "fetchSuite with %s", name ? "a host handle that is not the host's"
-                                                    : "the name NULL");
+        wo_violate(NULL, "fetchSuite with %s",
+                   name ? "a host handle that is not the host's" : "the name NULL");
         return NULL;
     }
     return wo_suite(name, version);
@@ -152,7 +154,7 @@ OfxHost *wo_process_ofx_host(void)
 
 bool wo_process_enter(wo_host *host, const wo_host_config *config)
 {
-    bool ok = true;
+    pthread_mutex_lock(&process.setup);
     wo_process_lock();
     const bool first = process.hosts == NULL;
     host->next = process.hosts;
@@ -161,26 +163,17 @@ bool wo_process_enter(wo_host *host, const wo_host_config *config)
     if (first) {
         wo_props_init(&process.properties, host, WO_PROPS_NEVER, "the host");
         wo_schema_host(&process.properties, config);
-        ok = !process.properties.failed;
         process.ofx_host.host = (OfxPropertySetHandle)process.properties.handle;
         process.ofx_host.fetchSuite = fetch_suite;
     }
+    const bool ok = !process.properties.failed;
+    pthread_mutex_unlock(&process.setup);
     return ok;
 }
 
-void wo_process_leave(wo_host *host)
+/* Nothing is left of the process's objects when its last host has gone. */
+static void forget(void)
 {
-    wo_process_lock();
-    wo_host **link = &process.hosts;
-    while (*link && *link != host)
-        link = &(*link)->next;
-    if (*link)
-        *link = host->next;
-    const bool last = process.hosts == NULL;
-    process.properties.host = process.hosts;
-    wo_process_unlock();
-    if (!last)
-        return;
     wo_props_clear(&process.properties);
     wo_mutexes_check_left(NULL);
     wo_process_lock();
@@ -194,6 +187,23 @@ void wo_process_leave(wo_host *host)
     process.count = process.capacity = 0;
     process.free_slot = 0;
     wo_process_unlock();
+}
+
+void wo_process_leave(wo_host *host)
+{
+    pthread_mutex_lock(&process.setup);
+    wo_process_lock();
+    wo_host **link = &process.hosts;
+    while (*link && *link != host)
+        link = &(*link)->next;
+    if (*link)
+        *link = host->next;
+    const bool last = process.hosts == NULL;
+    process.properties.host = process.hosts;
+    wo_process_unlock();
+    if (last)
+        forget();
+    pthread_mutex_unlock(&process.setup);
 }
 
 /* Host to blame something on when neither a handle nor an action says which. */

@@ -61,10 +61,9 @@ static bool writable_now(const wo_props *props, const char *name)
         return frame && (frame->action == WO_ACTION_DESCRIBE ||
                          frame->action == WO_ACTION_DESCRIBE_IN_CONTEXT);
     case WO_PROPS_INSTANCE:
-        return strcmp(name, kOfxParamPropDataPtr) == 0 ||
-               strcmp(name, kOfxPropInstanceData) == 0 ||
-               (frame && (wo_action_sets_params(frame->action) ||
-                          frame->action == WO_ACTION_DESTROY));
+        return strcmp(name, kOfxParamPropDataPtr) == 0 || strcmp(name, kOfxPropInstanceData) == 0 ||
+               (frame &&
+                (wo_action_sets_params(frame->action) || frame->action == WO_ACTION_DESTROY));
     case WO_PROPS_ACTION:
         return frame != NULL;
     }
@@ -93,29 +92,18 @@ static OfxStatus enter_write(OfxPropertySetHandle handle, const char *name, wo_p
     return kOfxStatOK;
 }
 
-static OfxStatus put(wo_prop *prop, int index, const void *value)
+static OfxStatus put(wo_prop *prop, int index, wo_prop_value value)
 {
-    switch (prop->type) {
-    case WO_PROP_INT:
-        prop->values[index].number = *(const int *)value;
-        break;
-    case WO_PROP_DOUBLE:
-        prop->values[index].real = *(const double *)value;
-        break;
-    case WO_PROP_POINTER:
-        prop->values[index].pointer = *(void *const *)value;
-        break;
-    case WO_PROP_STRING:
-        if (!wo_prop_put_text(prop, index, *(const char *const *)value))
-            return kOfxStatErrMemory;
-        break;
-    }
+    if (prop->type != WO_PROP_STRING)
+        prop->values[index] = value;
+    else if (!wo_prop_put_text(prop, index, value.text))
+        return kOfxStatErrMemory;
     prop->touched = true;
     return kOfxStatOK;
 }
 
 static OfxStatus set_one(OfxPropertySetHandle handle, const char *name, wo_prop_type type,
-                         int index, const void *value, const char *function)
+                         int index, wo_prop_value value, const char *function)
 {
     wo_props *props;
     wo_prop *prop;
@@ -124,7 +112,7 @@ static OfxStatus set_one(OfxPropertySetHandle handle, const char *name, wo_prop_
         return status;
     if (index < 0 || (prop->fixed ? index >= prop->fixed : index > prop->count))
         return leave_with(function, name, props, kOfxStatErrBadIndex, "the index is out of range");
-    if (type == WO_PROP_STRING && !*(const char *const *)value)
+    if (type == WO_PROP_STRING && !value.text)
         return leave_with(function, name, props, kOfxStatErrValue, "the value is NULL");
     if (index >= prop->count && !wo_prop_resize(prop, index + 1))
         return leave(kOfxStatErrMemory);
@@ -150,32 +138,16 @@ static OfxStatus set_many(OfxPropertySetHandle handle, const char *name, wo_prop
     if (!prop->fixed && !wo_prop_resize(prop, count))
         return leave(kOfxStatErrMemory);
     prop->touched = true;
-    for (int i = 0; i < count && status == kOfxStatOK; i++)
-        status = put(prop, i, (const char *)values + (size_t)i * size);
+    for (int i = 0; i < count && status == kOfxStatOK; i++) {
+        wo_prop_value value = {0};
+        memcpy(&value, (const char *)values + (size_t)i * size, size);
+        status = put(prop, i, value);
+    }
     return leave(status);
 }
 
-static void get(const wo_prop *prop, int index, void *value)
-{
-    const wo_prop_value *at = &prop->values[index];
-    switch (prop->type) {
-    case WO_PROP_INT:
-        *(int *)value = at->number;
-        break;
-    case WO_PROP_DOUBLE:
-        *(double *)value = at->real;
-        break;
-    case WO_PROP_POINTER:
-        *(void **)value = at->pointer;
-        break;
-    case WO_PROP_STRING:
-        *(char **)value = at->text;
-        break;
-    }
-}
-
-/* Reading what is not there is a plain answer for optional and growing properties, a breach where the
-   standard fixes the type or the dimension. */
+/* Reading what is not there is a plain answer for optional and growing properties, a breach where
+   the standard fixes the type or the dimension. */
 static OfxStatus get_many(OfxPropertySetHandle handle, const char *name, wo_prop_type type,
                           int from, int count, void *values, size_t size, const char *function)
 {
@@ -197,29 +169,32 @@ static OfxStatus get_many(OfxPropertySetHandle handle, const char *name, wo_prop
         return leave(kOfxStatErrBadIndex);
     }
     for (int i = 0; i < count; i++)
-        get(prop, from + i, (char *)values + (size_t)i * size);
+        memcpy((char *)values + (size_t)i * size, &prop->values[from + i], size);
     return leave(kOfxStatOK);
 }
 
 static OfxStatus set_pointer(OfxPropertySetHandle set, const char *name, int index, void *value)
 {
-    return set_one(set, name, WO_PROP_POINTER, index, &value, "propSetPointer");
+    return set_one(set, name, WO_PROP_POINTER, index, (wo_prop_value){.pointer = value},
+                   "propSetPointer");
 }
 
 static OfxStatus set_string(OfxPropertySetHandle set, const char *name, int index,
                             const char *value)
 {
-    return set_one(set, name, WO_PROP_STRING, index, &value, "propSetString");
+    return set_one(set, name, WO_PROP_STRING, index, (wo_prop_value){.text = (char *)value},
+                   "propSetString");
 }
 
 static OfxStatus set_double(OfxPropertySetHandle set, const char *name, int index, double value)
 {
-    return set_one(set, name, WO_PROP_DOUBLE, index, &value, "propSetDouble");
+    return set_one(set, name, WO_PROP_DOUBLE, index, (wo_prop_value){.real = value},
+                   "propSetDouble");
 }
 
 static OfxStatus set_int(OfxPropertySetHandle set, const char *name, int index, int value)
 {
-    return set_one(set, name, WO_PROP_INT, index, &value, "propSetInt");
+    return set_one(set, name, WO_PROP_INT, index, (wo_prop_value){.number = value}, "propSetInt");
 }
 
 static OfxStatus set_pointers(OfxPropertySetHandle set, const char *name, int count,
@@ -240,8 +215,7 @@ static OfxStatus set_doubles(OfxPropertySetHandle set, const char *name, int cou
     return set_many(set, name, WO_PROP_DOUBLE, count, values, sizeof *values, "propSetDoubleN");
 }
 
-static OfxStatus set_ints(OfxPropertySetHandle set, const char *name, int count,
-                          const int *values)
+static OfxStatus set_ints(OfxPropertySetHandle set, const char *name, int count, const int *values)
 {
     return set_many(set, name, WO_PROP_INT, count, values, sizeof *values, "propSetIntN");
 }
@@ -266,8 +240,7 @@ static OfxStatus get_int(OfxPropertySetHandle set, const char *name, int index, 
     return get_many(set, name, WO_PROP_INT, index, 1, value, sizeof *value, "propGetInt");
 }
 
-static OfxStatus get_pointers(OfxPropertySetHandle set, const char *name, int count,
-                              void **values)
+static OfxStatus get_pointers(OfxPropertySetHandle set, const char *name, int count, void **values)
 {
     return get_many(set, name, WO_PROP_POINTER, 0, count, values, sizeof *values,
                     "propGetPointerN");
@@ -278,8 +251,7 @@ static OfxStatus get_strings(OfxPropertySetHandle set, const char *name, int cou
     return get_many(set, name, WO_PROP_STRING, 0, count, values, sizeof *values, "propGetStringN");
 }
 
-static OfxStatus get_doubles(OfxPropertySetHandle set, const char *name, int count,
-                             double *values)
+static OfxStatus get_doubles(OfxPropertySetHandle set, const char *name, int count, double *values)
 {
     return get_many(set, name, WO_PROP_DOUBLE, 0, count, values, sizeof *values, "propGetDoubleN");
 }

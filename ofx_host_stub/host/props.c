@@ -241,8 +241,7 @@ double wo_props_double(const wo_props *props, const char *name, int index, doubl
     return at ? at->real : otherwise;
 }
 
-const char *wo_props_text(const wo_props *props, const char *name, int index,
-                          const char *otherwise)
+const char *wo_props_text(const wo_props *props, const char *name, int index, const char *otherwise)
 {
     const wo_prop_value *at = look(props, name, WO_PROP_STRING, index);
     return at && at->text ? at->text : otherwise;

@@ -8,8 +8,8 @@
 #include <time.h>
 
 /* Margin round a tile's own buffer in strict hosts: what is written there is found out. */
-#define MARGIN_X 3
-#define MARGIN_Y 2
+#define MARGIN_X    3
+#define MARGIN_Y    2
 #define WORKERS_MAX 256
 
 typedef struct render {
@@ -42,10 +42,7 @@ static double now(void)
 
 void wo_host_image_free(wo_image *image)
 {
-    if (image->data && image->row_bytes < 0)
-        free(wo_image_at(image, image->bounds.x1, image->bounds.y2 - 1));
-    else
-        free(image->data);
+    free(image->data);
     *image = (wo_image){0};
 }
 
@@ -55,15 +52,14 @@ void wo_host_abort(wo_host_instance *instance)
         atomic_store(&instance->stop, true);
 }
 
-/* ----------------------------------------------------------------------------------------- arguments */
+/* ------------------------------------------------------------------------------------ arguments */
 
 static void sequence_arguments(const render *r, wo_props *in, bool render_action)
 {
     const wo_host_render_args *a = r->args;
-    static const char *const gpus[] = {kOfxImageEffectPropOpenGLEnabled,
-                                       kOfxImageEffectPropCudaEnabled,
-                                       kOfxImageEffectPropMetalEnabled,
-                                       kOfxImageEffectPropOpenCLEnabled};
+    static const char *const gpus[] = {
+        kOfxImageEffectPropOpenGLEnabled, kOfxImageEffectPropCudaEnabled,
+        kOfxImageEffectPropMetalEnabled, kOfxImageEffectPropOpenCLEnabled};
     wo_props_add_one(in, kOfxImageEffectPropSequentialRenderStatus, WO_PROP_INT, 1, false);
     wo_props_add_one(in, kOfxImageEffectPropInteractiveRenderStatus, WO_PROP_INT, 1, false);
     wo_props_set_int(in, kOfxImageEffectPropInteractiveRenderStatus, 0, a->interactive);
@@ -94,15 +90,14 @@ static wo_status bracket(const render *r, wo_action action, wo_error *error)
     sequence_arguments(r, &in, false);
     if (action == WO_ACTION_BEGIN_RENDER)
         say_false(&in, kOfxImageEffectPropNoSpatialAwareness);
-    wo_frame frame = {
-        .action = action, .time = r->args->time, .scale = {r->scale[0], r->scale[1]}};
+    wo_frame frame = {.action = action, .time = r->args->time, .scale = {r->scale[0], r->scale[1]}};
     const wo_status status = wo_act_on(r->instance, &frame, &in, NULL, NULL, error);
     wo_props_clear(&in);
     wo_props_clear(&out);
     return status;
 }
 
-/* --------------------------------------------------------------------------------------------- tiles */
+/* ---------------------------------------------------------------------------------------- tiles */
 
 static wo_status make_output(const render *r, wo_tile *tile, wo_error *error)
 {
@@ -128,8 +123,7 @@ static wo_status make_output(const render *r, wo_tile *tile, wo_error *error)
     return WO_OK;
 }
 
-static void check_output(const render *r, const wo_frame *frame, const wo_tile *tile,
-                         bool rendered)
+static void check_output(const render *r, const wo_frame *frame, const wo_tile *tile, bool rendered)
 {
     if (!wo_buffer_intact(&tile->output))
         wo_violate_in(frame, "bytes outside of the output image were written");
@@ -168,8 +162,7 @@ static wo_status render_tile(const render *r, wo_tile *tile, double *seconds, wo
     if (!tile->direct) {
         check_output(r, &frame, tile, rendered);
         if (rendered)
-            wo_copy_window(&tile->output.view, &r->view,
-                           wo_rect_intersect(tile->window, r->asked));
+            wo_copy_window(&tile->output.view, &r->view, wo_rect_intersect(tile->window, r->asked));
         wo_buffer_free(&tile->output);
     }
     return stopped ? WO_ABORTED : status;
@@ -228,8 +221,9 @@ static wo_status cut_tiles(render *r, wo_error *error)
         wo_props_int(&r->instance->object.props, kOfxImageEffectPropSupportsTiles, 0, 1);
     const size_t ports = r->instance->object.port_count;
     const int32_t width = wo_rect_width(r->window), height = wo_rect_height(r->window);
-    const int32_t w = tiles && r->args->tile_width > 0 ? r->args->tile_width : width;
-    const int32_t h = tiles && r->args->tile_height > 0 ? r->args->tile_height : height;
+    const int32_t tw = r->args->tile_width, th = r->args->tile_height;
+    const int32_t w = tiles && tw > 0 && tw < width ? tw : width;
+    const int32_t h = tiles && th > 0 && th < height ? th : height;
     const size_t columns = (size_t)((width + w - 1) / w), rows = (size_t)((height + h - 1) / h);
     r->tile_count = columns * rows;
     r->tiles = calloc(r->tile_count, sizeof *r->tiles);
@@ -244,15 +238,15 @@ static wo_status cut_tiles(render *r, wo_error *error)
         tile->needed = &r->needed[i * ports];
         tile->region = r->region;
         tile->canonical = r->canonical;
-        WO_TRY(wo_host_get_needed(
-            r->instance, r->args->time, r->scale[0], r->scale[1],
-            wo_pixels_region(tile->window, r->scale[0], r->scale[1], r->aspect), tile->needed,
-            ports, error));
+        WO_TRY(
+            wo_host_get_needed(r->instance, r->args->time, r->scale[0], r->scale[1],
+                               wo_pixels_region(tile->window, r->scale[0], r->scale[1], r->aspect),
+                               tile->needed, ports, error));
     }
     return WO_OK;
 }
 
-/* -------------------------------------------------------------------------------------------- whole */
+/* ---------------------------------------------------------------------------------------- whole */
 
 /* Copies the clip the plugin has named instead of rendering. */
 static wo_status copy_clip(render *r, wo_port *port, double time, wo_error *error)
@@ -266,8 +260,7 @@ static wo_status copy_clip(render *r, wo_port *port, double time, wo_error *erro
     if (wo_region_infinite(defined))
         defined = wo_project_region(r->instance);
     const wo_rect window = wo_rect_intersect(
-        r->asked,
-        wo_region_pixels(defined, r->scale[0], r->scale[1], port->source.pixel_aspect));
+        r->asked, wo_region_pixels(defined, r->scale[0], r->scale[1], port->source.pixel_aspect));
     if (wo_rect_empty(window))
         return WO_OK;
     if (!wo_buffer_make(r->instance->object.host, &buffer, window, r->view.components))
@@ -290,7 +283,10 @@ static wo_status check_resolution(const render *r, wo_error *error)
         wo_host_region d;
         if (!port->connected)
             continue;
-        WO_TRY(wo_port_region(port, r->args->time, &d, error));
+        const wo_status status = wo_port_region(port, r->args->time, &d, error);
+        if (status == WO_ERR_NOT_FOUND)
+            continue;
+        WO_TRY(status);
         if (d.x1 != p.x1 || d.y1 != p.y1 || d.x2 != p.x2 || d.y2 != p.y2)
             return wo_fail(error, WO_ERR_UNSUPPORTED,
                            "%.80s wants clips of the project's size; %.60s is not",
@@ -318,8 +314,9 @@ static wo_status prepare_view(render *r, wo_image *output, wo_error *error)
     const int64_t width = (int64_t)r->asked.x2 - r->asked.x1;
     const int64_t height = (int64_t)r->asked.y2 - r->asked.y1;
     if (width > WO_MAX_SIDE || height > WO_MAX_SIDE)
-        return wo_fail(error, WO_ERR_RANGE, "%lld x %lld pixels are too many; %d is the longest side",
-                       (long long)width, (long long)height, WO_MAX_SIDE);
+        return wo_fail(error, WO_ERR_RANGE,
+                       "%lld x %lld pixels are too many; %d is the longest side", (long long)width,
+                       (long long)height, WO_MAX_SIDE);
     const size_t row = (size_t)width * (size_t)port->components * sizeof(float);
     r->view = (wo_image){.data = calloc((size_t)height, row),
                          .bounds = r->asked,
@@ -335,6 +332,10 @@ static wo_status render_sequence(render *r, wo_error *error)
 {
     wo_host_instance *instance = r->instance;
     const bool unsafe = instance->object.entry->info.safety == WO_HOST_UNSAFE;
+    if (unsafe && wo_frame_now()) /* it may be this plugin that waits for us */
+        return wo_fail(error, WO_ERR_UNSUPPORTED,
+                       "%.80s is not thread-safe and cannot render inside of another render",
+                       instance->object.entry->info.identifier);
     if (unsafe)
         pthread_mutex_lock(wo_entry_render_lock(instance->object.entry));
     wo_status status = bracket(r, WO_ACTION_BEGIN_RENDER, error);
@@ -376,9 +377,9 @@ static wo_status render_all(render *r, wo_image *output, wo_error *error)
     WO_TRY(check_resolution(r, error));
     WO_TRY(wo_host_get_region(instance, a->time, r->scale[0], r->scale[1], &r->canonical,
                               &r->region, error));
-    r->aspect = wo_props_double(
-        &wo_object_port(&instance->object, kOfxImageEffectOutputClipName)->props,
-        kOfxImagePropPixelAspectRatio, 0, 1);
+    r->aspect =
+        wo_props_double(&wo_object_port(&instance->object, kOfxImageEffectOutputClipName)->props,
+                        kOfxImagePropPixelAspectRatio, 0, 1);
     r->asked = wo_rect_empty(a->window) ? r->region : a->window;
     r->result->region = r->canonical;
     r->result->window = r->asked;
@@ -390,12 +391,11 @@ static wo_status render_all(render *r, wo_image *output, wo_error *error)
         return WO_OK;
     if (!wo_props_int(&instance->object.props, kOfxImageEffectPropSupportsTiles, 0, 1))
         r->window = r->region;
-    WO_TRY(wo_ask_identity(instance, a->time, r->scale, r->window, &identity, &identity_time,
-                           error));
+    WO_TRY(
+        wo_ask_identity(instance, a->time, r->scale, r->window, &identity, &identity_time, error));
     if (identity && identity->connected) {
         r->result->identity = true;
-        r->result->identity_clip =
-            wo_host_find_clip(instance->context, identity->name)->name;
+        r->result->identity_clip = wo_host_find_clip(instance->context, identity->name)->name;
         r->result->identity_time = identity_time;
         return copy_clip(r, identity, identity_time, error);
     }
@@ -403,8 +403,8 @@ static wo_status render_all(render *r, wo_image *output, wo_error *error)
         ranges = calloc(instance->object.port_count, sizeof *ranges);
         if (!ranges)
             return wo_fail(error, WO_ERR_NOMEM, "no memory for ranges of frames");
-        const wo_status status = wo_host_get_frames_needed(
-            instance, a->time, ranges, instance->object.port_count, error);
+        const wo_status status = wo_host_get_frames_needed(instance, a->time, ranges,
+                                                           instance->object.port_count, error);
         free(ranges);
         WO_TRY(status);
     }

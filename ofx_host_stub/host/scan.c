@@ -10,12 +10,12 @@
 #include <sys/stat.h>
 #include <sys/utsname.h>
 
-#define DEPTH_MAX 12 /* of folders in folders; links may go round in circles */
+#define DEPTH_MAX 40 /* of folders in folders */
 
 static const char bundle_end[] = ".ofx.bundle";
 
 /* Name of the folder inside Contents that holds this machine's binaries. */
-const char *wo_scan_architecture(char *buffer, size_t size)
+static const char *architecture(char *buffer, size_t size)
 {
     struct utsname name;
     if (uname(&name) != 0)
@@ -43,8 +43,8 @@ static char *join(const char *a, const char *b)
 
 static void scan_bundle(wo_host *host, const char *bundle, const char *name)
 {
-    char architecture[64];
-    const char *arch = wo_scan_architecture(architecture, sizeof architecture);
+    char name_of_machine[64];
+    const char *arch = architecture(name_of_machine, sizeof name_of_machine);
     const int stem = (int)(strlen(name) - (sizeof bundle_end - 1));
     const size_t size = strlen(bundle) + strlen(arch) + strlen(name) + 32;
     char *binary = malloc(size);
@@ -84,25 +84,58 @@ static bool list(const char *directory, wo_texts *names)
     return ok;
 }
 
-void wo_scan_directory(wo_host *host, const char *directory, int depth)
+/* Folders that were searched: links may lead back, or to one place in many ways. */
+typedef struct folders {
+    struct folder {
+        dev_t device;
+        ino_t number;
+    } * items;
+    size_t count, capacity;
+} folders;
+
+/* True when the folder is new; *ok is false when there is no memory to remember it. */
+static bool is_new(folders *seen, const struct stat *status, bool *ok)
+{
+    *ok = true;
+    for (size_t i = 0; i < seen->count; i++)
+        if (seen->items[i].device == status->st_dev && seen->items[i].number == status->st_ino)
+            return false;
+    struct folder *items = wo_grow(seen->items, seen->count, &seen->capacity, sizeof *items);
+    *ok = items != NULL;
+    if (!items) {
+        errno = ENOMEM;
+        return false;
+    }
+    seen->items = items;
+    items[seen->count++] = (struct folder){status->st_dev, status->st_ino};
+    return true;
+}
+
+static void scan(wo_host *host, const char *directory, folders *seen, int depth, bool must_exist)
 {
     wo_texts names = {0};
+    struct stat status;
+    bool ok = stat(directory, &status) == 0;
+    if (ok && !is_new(seen, &status, &ok) && ok)
+        return;
     if (depth > DEPTH_MAX) {
         wo_note(host, "%s: too many folders in folders", directory);
         return;
     }
-    if (!list(directory, &names)) {
+    if (!ok || !list(directory, &names)) {
         if (errno == ENOMEM)
             wo_note(host, "%s: out of memory", directory);
-        else if (depth > 0 || errno != ENOENT)
-            wo_note(host, "%s: %s", directory, errno == ENOTDIR ? "not a folder" : "unreadable");
+        else if (must_exist || errno != ENOENT)
+            wo_note(host, "%s: %s", directory,
+                    errno == ENOENT    ? "there is no such folder"
+                    : errno == ENOTDIR ? "not a folder"
+                                       : "unreadable");
         wo_texts_clear(&names);
         return;
     }
     for (size_t i = 0; i < names.count; i++) {
         const char *name = names.items[i];
         const size_t length = strlen(name);
-        struct stat status;
         char *path = join(directory, name);
         if (!path) {
             wo_note(host, "%s: out of memory", directory);
@@ -113,11 +146,18 @@ void wo_scan_directory(wo_host *host, const char *directory, int depth)
                 strcmp(name + length - (sizeof bundle_end - 1), bundle_end) == 0)
                 scan_bundle(host, path, name);
             else
-                wo_scan_directory(host, path, depth + 1);
+                scan(host, path, seen, depth + 1, true);
         }
         free(path);
     }
     wo_texts_clear(&names);
+}
+
+void wo_scan_directory(wo_host *host, const char *directory, bool must_exist)
+{
+    folders seen = {0};
+    scan(host, directory, &seen, 0, must_exist);
+    free(seen.items);
 }
 
 void wo_scan_paths(wo_host *host, const char *paths)
@@ -132,7 +172,7 @@ void wo_scan_paths(wo_host *host, const char *paths)
             }
             memcpy(directory, paths, length);
             directory[length] = '\0';
-            wo_scan_directory(host, directory, 0);
+            wo_scan_directory(host, directory, false);
             free(directory);
         }
         paths += length + (paths[length] != '\0');

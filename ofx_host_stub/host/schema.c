@@ -8,16 +8,40 @@
 #include <limits.h>
 #include <string.h>
 
-/* Which object has which properties, of which type, how many, who writes. W: the plugin may; R: only
-   the host does. */
-#define INT_W(name, count, number)    {name, WO_PROP_INT, count, true, number, NULL}
-#define INT_R(name, count, number)    {name, WO_PROP_INT, count, false, number, NULL}
-#define DOUBLE_W(name, count, number) {name, WO_PROP_DOUBLE, count, true, number, NULL}
-#define DOUBLE_R(name, count, number) {name, WO_PROP_DOUBLE, count, false, number, NULL}
-#define TEXT_W(name, count, text)     {name, WO_PROP_STRING, count, true, 0, text}
-#define TEXT_R(name, count, text)     {name, WO_PROP_STRING, count, false, 0, text}
-#define POINTER_W(name)               {name, WO_PROP_POINTER, 1, true, 0, NULL}
-#define POINTER_R(name)               {name, WO_PROP_POINTER, 1, false, 0, NULL}
+/* Which object has which properties, of which type, how many, who writes. W: the plugin may; R:
+   only the host does. */
+#define INT_W(name, count, number)                                                                 \
+    {                                                                                              \
+        name, WO_PROP_INT, count, true, number, NULL                                               \
+    }
+#define INT_R(name, count, number)                                                                 \
+    {                                                                                              \
+        name, WO_PROP_INT, count, false, number, NULL                                              \
+    }
+#define DOUBLE_W(name, count, number)                                                              \
+    {                                                                                              \
+        name, WO_PROP_DOUBLE, count, true, number, NULL                                            \
+    }
+#define DOUBLE_R(name, count, number)                                                              \
+    {                                                                                              \
+        name, WO_PROP_DOUBLE, count, false, number, NULL                                           \
+    }
+#define TEXT_W(name, count, text)                                                                  \
+    {                                                                                              \
+        name, WO_PROP_STRING, count, true, 0, text                                                 \
+    }
+#define TEXT_R(name, count, text)                                                                  \
+    {                                                                                              \
+        name, WO_PROP_STRING, count, false, 0, text                                                \
+    }
+#define POINTER_W(name)                                                                            \
+    {                                                                                              \
+        name, WO_PROP_POINTER, 1, true, 0, NULL                                                    \
+    }
+#define POINTER_R(name)                                                                            \
+    {                                                                                              \
+        name, WO_PROP_POINTER, 1, false, 0, NULL                                                   \
+    }
 
 #define ADD(props, rows) wo_props_add(props, rows, WO_COUNT(rows))
 
@@ -201,7 +225,8 @@ static const wo_prop_row param_rows[] = {
     TEXT_W(kOfxPropIcon, 2, ""),
 };
 
-static const wo_prop_row param_control_rows[] = { /* all but groups and pages */
+static const wo_prop_row param_control_rows[] = {
+    /* all but groups and pages */
     POINTER_W(kOfxParamPropInteractV1),
     DOUBLE_R(kOfxParamPropInteractSize, 2, 0),
     DOUBLE_W(kOfxParamPropInteractSizeAspect, 1, 1),

@@ -30,8 +30,7 @@ static void covered(int32_t i, double scale, int32_t low, int32_t high, int32_t 
     *last = b < low ? low : b > high ? high : (int32_t)b;
 }
 
-static void average(const wo_image *from, int32_t x1, int32_t x2, int32_t y1, int32_t y2,
-                    float *to)
+static void average(const wo_image *from, int32_t x1, int32_t x2, int32_t y1, int32_t y2, float *to)
 {
     for (int32_t c = 0; c < from->components; c++) {
         double sum = 0;

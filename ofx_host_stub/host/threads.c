@@ -7,7 +7,7 @@
 
 #define THREADS_MAX 1024
 
-/* ----------------------------------------------------------------------------------------- the pool */
+/* ------------------------------------------------------------------------------------- the pool */
 
 /* One call of multiThread. It lives on the stack of its caller, which works on it as well. */
 typedef struct job {
@@ -202,7 +202,7 @@ static int is_spawned(void)
     return frame && frame->spawned;
 }
 
-/* --------------------------------------------------------------------------------------- the mutexes */
+/* ---------------------------------------------------------------------------------- the mutexes */
 
 struct wo_mutex {
     wo_mutex *next;

@@ -247,8 +247,7 @@ bool wo_par_delete_key(wo_par *par, double time)
     }
     free(par->keys[at].text);
     par->key_count--;
-    memmove(&par->keys[at], &par->keys[at + 1],
-            (par->key_count - (size_t)at) * sizeof *par->keys);
+    memmove(&par->keys[at], &par->keys[at + 1], (par->key_count - (size_t)at) * sizeof *par->keys);
     wo_par_show_animating(par);
     return true;
 }

@@ -147,8 +147,10 @@ expect 0 describe LensBlur --plugin-path .
 
 expect 0 footage two-planes -o scene --size 96x64 --layers 2 --reference 16 --no-progress
 silent
-present "$SCENE"
-present "$REFERENCE"
+scene=scene/two-planes.exr
+reference=scene/reference.exr
+present "$scene"
+present "$reference"
 expect 2 footage no-such-scene -o scene2
 says still-life
 expect 2 footage two-planes -o scene2 --size 96
@@ -156,19 +158,190 @@ absent scene2
 
 # ----------------------------------------------------------------------------------------- compare
 
-expect 0 compare "$REFERENCE" "$REFERENCE" --json
+expect 0 compare "$reference" "$reference" --json
 is_json stdout
 cp stdout equal.json
 value equal.json psnr null
 value equal.json max_error 0
 value equal.json nonfinite 0
-expect 0 compare "$REFERENCE" "$SCENE" --json --crop 4 --diff diff.png
+expect 0 compare "$reference" "$scene" --json --crop 4 --diff diff.png
 is_json stdout
 present diff.png
-expect 1 compare "$REFERENCE" missing.exr
+expect 1 compare "$reference" missing.exr
 says missing.exr
 silent
-expect 1 compare "$REFERENCE" "$REFERENCE" --crop 40
-expect 2 compare "$REFERENCE" "$REFERENCE" --crop -1
-expect 2 compare "$REFERENCE" "$REFERENCE" --in-space NoSuchSpace
+expect 1 compare "$reference" "$reference" --crop 40
+expect 2 compare "$reference" "$reference" --crop -1
+expect 2 compare "$reference" "$reference" --in-space NoSuchSpace
 says NoSuchSpace
+
+# ------------------------------------------------------------------------------------------ render
+
+# blur WANTED_CODE WORDS...
+blur() {
+    wanted=$1
+    shift
+    expect "$wanted" render LensBlur --clip "Source=$scene" --clip "Depth=$scene:Z" \
+        --set samples=8 --no-progress "$@"
+}
+
+# psnr REF OUT: as a number, for comparisons.
+psnr() {
+    "$wideopen" compare "$1" "$2" --json | "$wideopen" json - psnr
+}
+
+above() {
+    checks=$((checks + 1))
+    awk "BEGIN { exit !($1 > $2) }" || fail "$1 is not above $2: $3"
+}
+
+blur 0 -o out.exr --report report.json --strict
+silent
+says 'camera of'
+is_json report.json
+value report.json ok true
+value report.json error null
+value report.json frames.0.output out.exr
+value report.json frames.0.window '[0, 0, 96, 64]'
+value report.json params.samples 8
+above "$("$wideopen" json report.json rays)" 0 "rays of the report"
+expect 0 compare "$reference" out.exr
+above "$(psnr "$reference" out.exr)" "$(psnr "$reference" "$scene")" "blurred against sharp"
+
+blur 0 -o again.exr --json --no-metadata
+is_json stdout
+checks=$((checks + 1))
+! grep -q 'camera of' stderr || fail "--no-metadata still takes the camera"
+
+blur 0 -o tiles.exr --tile 16
+same out.exr tiles.exr
+blur 0 -o one.exr --threads 1
+same out.exr one.exr
+blur 0 -o three.exr --threads 3 --context Filter
+blur 0 -o set.exr --set fStop=2.8 --set focusDistance=3 --set seed=7
+blur 0 -o window.exr --window 10,5,50,40 --report report.json
+value report.json frames.0.window '[10, 5, 50, 40]'
+expect 1 compare out.exr window.exr
+says 'sizes differ'
+blur 0 -o half.exr --scale 0.5
+expect 1 compare out.exr half.exr
+says 48x32
+blur 0 -o seen.png
+above "$(psnr out.exr seen.png)" 40 "PNG against EXR"
+blur 0 -o float.exr --bits float --out-space ACEScg
+blur 0 -o plain.exr --report /dev/stdout
+is_json stdout
+
+blur 0 --explain
+shows samples
+blur 0 --explain --json -o explained.exr
+is_json stdout
+absent explained.exr
+
+# Sequences: one picture for each frame, animated parameters.
+cp "$scene" in.0001.exr
+cp "$scene" in.0002.exr
+sequence() {
+    wanted=$1
+    shift
+    expect "$wanted" render LensBlur --clip 'Source=in.####.exr' --clip 'Depth=in.%04d.exr:Z' \
+        --set samples=4 --no-progress "$@"
+}
+sequence 0 --frames 1-2 -o 'moved.####.exr' --set focusDistance=@1:1,@2:50 --report report.json
+present moved.0001.exr
+present moved.0002.exr
+value report.json frames.1.frame 2
+value report.json keys.focusDistance 2
+above 60 "$(psnr moved.0001.exr moved.0002.exr)" "frames of a focus pull"
+sequence 0 --frames 2 -o still.exr --set 'focusDistance@1:1,focusDistance@2:50'
+same still.exr moved.0002.exr
+sequence 1 --frames 2-3 -o 'late.####.exr' --report report.json
+says 0003
+value report.json ok false
+absent late.0003.exr
+sequence 2 -o 'out.####.exr'
+says '--frames'
+sequence 2 --frames 1-2 -o out.exr
+says '####'
+sequence 2 --frames 2-1 -o 'out.####.exr'
+
+# What was given, what is allowed, what to do.
+blur 2 -o x.exr --set fstop=2
+says 'did you mean fStop'
+blur 2 -o x.exr --set fStop=-1
+says 'fStop'
+blur 2 -o x.exr --set fStop=nan
+blur 2 -o x.exr --set fStop
+blur 2 -o x.exr --set output=nonsense
+says 'Circle of confusion'
+blur 2 -o x.exr --clip Backdrop=a.exr
+says Layer2
+blur 2 -o x.exr --clip "Source=$scene"
+says twice
+blur 2 -o x.exr --scale 2
+blur 2 -o x.exr --window 1,2,3
+blur 2 -o x.exr --threads 0
+blur 2 -o x.exr --bits 12
+blur 2 -o x.exr --in-space Nowhere
+says ACEScg
+blur 2 -o x.exr --out-space Nowhere
+blur 2 -o x.exr --context Paint
+blur 2 -o x.exr --raw Mask
+blur 2 -o x.exr surplus
+expect 2 render LensBlur -o x.exr
+says 'needs clip Source'
+blur 1 -o x.exr --clip Mask=missing.exr
+says missing.exr
+blur 1 -o x.exr --clip "Mask=$scene:nonsense"
+says nonsense
+head -c 500 "$scene" >cut.exr
+blur 1 -o x.exr --clip Mask=cut.exr
+echo 'no picture' >text.exr
+blur 1 -o x.exr --clip Mask=text.exr
+blur 1 -o missing-folder/x.exr
+says missing-folder
+blur 1 -o x.gif
+says exr
+blur 1 -o x.exr --bits 8
+blur 1 -o x.exr --ocio missing.ocio
+says missing.ocio
+blur 1 -o x.exr --report missing-folder/report.json
+rm -f x.exr
+blur 1 -o x.exr --window 1000,0,1010,10
+absent x.exr
+
+# A failing render leaves an older file alone; so does an interrupted one.
+echo old >kept.exr
+blur 1 -o kept.exr --window 1000,0,1010,10
+rm -f report.json
+expect 0 footage two-planes -o large --size 384x256 --layers 1 --no-progress
+checks=$((checks + 1))
+timeout --preserve-status -s INT 2 "$wideopen" render LensBlur --clip "Source=large/two-planes.exr" \
+    --clip "Depth=large/two-planes.exr:Z" --set samples=16384 --set fStop=0.7 -o kept.exr \
+    --report report.json --no-progress >stdout 2>stderr
+code=$?
+[ "$code" -eq 130 ] || fail "interrupted: exit code $code instead of 130"
+says interrupted
+value report.json ok false
+checks=$((checks + 1))
+[ "$(cat kept.exr)" = old ] || fail "a failed render touched kept.exr"
+
+# ---------------------------------------------------------------------------------- sheet, the rest
+
+expect 0 sheet "sharp=$scene" 'blurred|8 rays=out.exr' -o sheet.png --title 'Two planes' --columns 2
+present sheet.png
+expect 2 sheet out.exr -o x.png
+expect 2 sheet a=out.exr
+expect 1 sheet a=missing.exr -o x.png
+absent x.png
+
+if [ -c /dev/full ]; then
+    checks=$((checks + 1))
+    "$wideopen" describe LensBlur >/dev/full 2>stderr
+    code=$?
+    [ "$code" -eq 1 ] || fail "a full disk under stdout: exit code $code instead of 1"
+fi
+
+no_leftovers
+echo "$checks checks, $failures failed"
+[ "$failures" -eq 0 ]

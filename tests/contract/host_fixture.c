@@ -105,8 +105,7 @@ void fixture_same(const wo_image *a, const wo_image *b)
 {
     assert_true(wo_rect_equal(a->bounds, b->bounds));
     assert_int_equal(a->components, b->components);
-    const size_t length =
-        (size_t)wo_rect_width(a->bounds) * (size_t)a->components * sizeof(float);
+    const size_t length = (size_t)wo_rect_width(a->bounds) * (size_t)a->components * sizeof(float);
     for (int32_t y = a->bounds.y1; y < a->bounds.y2; y++)
         assert_memory_equal(wo_image_at(a, a->bounds.x1, y), wo_image_at(b, b->bounds.x1, y),
                             length);

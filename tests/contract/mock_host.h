@@ -48,8 +48,10 @@ typedef struct mock_picture {
     const char *components;
     const char *alpha; /* NULL: the image does not say */
     OfxRectD region;   /* of definition, canonical; all 0 = bounds */
+    wo_rect defined;   /* what the image says of it, in pixels, if not empty */
     wo_rect first;     /* if not empty: what is given unless a region is named */
     bool silent;       /* clipGetImage fails */
+    bool starved;      /* clipGetImage has no memory */
     bool connected;    /* what the clip says */
 } mock_picture;
 
@@ -114,6 +116,9 @@ OfxStatus mock_needed(OfxPlugin *plugin, OfxImageEffectHandle effect, OfxRectD r
 /* Text of a property of the descriptor of a parameter (or "" for the effect), or NULL. */
 const char *mock_param_text(OfxImageEffectHandle effect, const char *param, const char *property,
                             int index);
+
+/* Number a property of a clip's descriptor has; -1 if there is none. */
+int mock_clip_number(OfxImageEffectHandle effect, const char *clip, const char *property);
 int mock_param_count(OfxImageEffectHandle effect);
 bool mock_has_param(OfxImageEffectHandle effect, const char *param);
 

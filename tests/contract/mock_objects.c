@@ -330,6 +330,15 @@ const char *mock_param_text(OfxImageEffectHandle effect, const char *param, cons
     return number;
 }
 
+int mock_clip_number(OfxImageEffectHandle effect, const char *clip, const char *property)
+{
+    int value = -1;
+    for (int i = 0; i < effect->clip_count; i++)
+        if (strcmp(effect->clips[i].name, clip) == 0)
+            get_int(effect->clips[i].props, property, 0, &value);
+    return value;
+}
+
 int mock_param_count(OfxImageEffectHandle effect)
 {
     return effect->params.count;
@@ -403,7 +412,9 @@ static OfxStatus clip_get_image(OfxImageClipHandle clip, OfxTime time, const Ofx
 {
     const mock_picture *const p = clip->picture;
     (void)time;
-    *image = NULL;
+    *image = (OfxPropertySetHandle)(void *)&live_sets; /* a failure promises nothing about it */
+    if (p->starved)
+        return kOfxStatErrMemory;
     if (p->silent)
         return kOfxStatFailed;
     const OfxPropertySetHandle set = set_new();
@@ -418,6 +429,8 @@ static OfxStatus clip_get_image(OfxImageClipHandle clip, OfxTime time, const Ofx
     put_pointer(set, kOfxImagePropData, 0, data);
     put_rect(set, kOfxImagePropBounds, bounds);
     put_int(set, kOfxImagePropRowBytes, 0, p->row_bytes);
+    if (!wo_rect_empty(p->defined))
+        put_rect(set, kOfxImagePropRegionOfDefinition, p->defined);
     put_text(set, kOfxImageEffectPropPixelDepth, 0, p->depth ? p->depth : kOfxBitDepthNone);
     put_text(set, kOfxImageEffectPropComponents, 0,
              p->components ? p->components : kOfxImageComponentNone);

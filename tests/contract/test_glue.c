@@ -706,6 +706,26 @@ static void two_instances_work_side_by_side(void **state)
     close_host(&host);
 }
 
+/* Renders of one instance at once share a progress bar, of which there is one. */
+static void tiles_of_one_instance_may_overlap(void **state)
+{
+    (void)state;
+    wo_host *host = open_host(4, 0);
+    reset_clips(1);
+    wo_host_instance *instance = create(host, "General", 1);
+    setup s = default_setup();
+    s.params.trouble = PROBE_TROUBLE_SLOW;
+    wo_host_render_args args = args_of(&s);
+    args.tile_height = 2;
+    args.parallel_tiles = 4;
+    for (int clip = 0; clip < PROBE_CLIPS; clip++)
+        connect(instance, clip);
+    set(instance, "trouble", "Be slow");
+    assert_render(instance, &s, &args);
+    wo_host_instance_destroy(&instance);
+    close_host(&host);
+}
+
 static void unpremultiplied_sources_are_not_copied(void **state)
 {
     (void)state;
@@ -758,6 +778,7 @@ int main(void)
         cmocka_unit_test(errors_are_shown_and_go_away),
         cmocka_unit_test(plans_and_reports_are_published),
         cmocka_unit_test(two_instances_work_side_by_side),
+        cmocka_unit_test(tiles_of_one_instance_may_overlap),
         cmocka_unit_test(unpremultiplied_sources_are_not_copied),
         cmocka_unit_test(it_outlives_purging_and_syncing),
     };

@@ -39,11 +39,12 @@ static void reload(unsigned flags)
     assert_int_equal(probe->mainEntry(kOfxActionLoad, NULL, NULL, NULL), kOfxStatOK);
 }
 
-static void the_binary_offers_one_plugin(void **state)
+static void the_binary_offers_its_plugins(void **state)
 {
     (void)state;
-    assert_int_equal(probe_count(), 1);
-    assert_null(probe_get(1));
+    assert_int_equal(probe_count(), 2);
+    assert_null(probe_get(2));
+    assert_string_equal(probe_get(1)->pluginIdentifier, "org.wideopen.test.Demanding");
     assert_null(probe_get(-1));
     assert_ptr_equal(probe_get(0), probe);
     assert_string_equal(probe->pluginApi, "OfxImageEffectPluginAPI");
@@ -65,6 +66,11 @@ static void needed_suites_are_demanded(void **state)
         assert_null(mock_create(probe, kOfxImageEffectContextFilter, &status));
         assert_int_equal(status, kOfxStatErrMissingHostFeature);
     }
+    reload(0);
+    OfxStatus unloaded = kOfxStatOK;
+    assert_int_equal(probe->mainEntry(kOfxActionUnload, NULL, NULL, NULL), kOfxStatOK);
+    assert_null(mock_create(probe, kOfxImageEffectContextFilter, &unloaded));
+    assert_int_equal(unloaded, kOfxStatErrMissingHostFeature);
     reload(0);
     assert_int_equal(probe->mainEntry(NULL, NULL, NULL, NULL), kOfxStatErrValue);
     assert_int_equal(probe->mainEntry(kOfxActionDescribe, NULL, NULL, NULL), kOfxStatErrBadHandle);
@@ -101,6 +107,36 @@ static void contexts_are_filter_and_general(void **state)
     assert_int_equal(status, kOfxStatErrUnsupported);
     mock_destroy(probe, create(kOfxImageEffectContextFilter));
     mock_destroy(probe, create(kOfxImageEffectContextGeneral));
+}
+
+/* In a filter a host need not wire more than Source, so that nothing else may be demanded. */
+static void filters_demand_source_only(void **state)
+{
+    (void)state;
+    OfxPlugin *const demanding = probe_get(1);
+    const struct {
+        const char *context;
+        int source, depth, mask, output;
+    } rows[] = {{kOfxImageEffectContextFilter, 0, 1, 1, 0},
+                {kOfxImageEffectContextGeneral, 0, 0, 1, 0}};
+    demanding->setHost(mock_host());
+    assert_int_equal(demanding->mainEntry(kOfxActionLoad, NULL, NULL, NULL), kOfxStatOK);
+    for (size_t i = 0; i < WO_COUNT(rows); i++) {
+        OfxStatus status = kOfxStatFailed;
+        const OfxImageEffectHandle effect = mock_create(demanding, rows[i].context, &status);
+        assert_non_null(effect);
+        assert_int_equal(mock_clip_number(effect, "Source", kOfxImageClipPropOptional),
+                         rows[i].source);
+        assert_int_equal(mock_clip_number(effect, "Depth", kOfxImageClipPropOptional),
+                         rows[i].depth);
+        assert_int_equal(mock_clip_number(effect, "Mask", kOfxImageClipPropOptional), rows[i].mask);
+        assert_int_equal(mock_clip_number(effect, "Output", kOfxImageClipPropOptional),
+                         rows[i].output);
+        assert_int_equal(mock_clip_number(effect, "Mask", kOfxImageClipPropIsMask), 1);
+        assert_int_equal(mock_clip_number(effect, "Depth", kOfxImageClipPropIsMask), 0);
+        mock_destroy(demanding, effect);
+    }
+    assert_int_equal(demanding->mainEntry(kOfxActionUnload, NULL, NULL, NULL), kOfxStatOK);
 }
 
 static void parameters_are_those_of_the_table(void **state)
@@ -296,7 +332,7 @@ static void every_allocation_may_fail(void **state)
             }
             assert_true(n < 100);
         }
-        /* params, output, three inputs, plan, weights, report */
+        /* params, output, three inputs, plan, workers, report */
         assert_int_equal(failures, 8);
         assert_false(mock.persistent_set);
 
@@ -455,10 +491,11 @@ static void values_beyond_the_range_are_met(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(the_binary_offers_one_plugin),
+        TEST(the_binary_offers_its_plugins),
         TEST(needed_suites_are_demanded),
         TEST(it_loads_and_describes_again_and_again),
         TEST(contexts_are_filter_and_general),
+        TEST(filters_demand_source_only),
         TEST(parameters_are_those_of_the_table),
         TEST(types_the_host_lacks_are_done_without),
         TEST(properties_the_host_lacks_are_done_without),

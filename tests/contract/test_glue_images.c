@@ -182,7 +182,7 @@ static void senseless_images_are_refused(void **state)
     (void)state;
     const OfxImageEffectHandle effect = create(kOfxImageEffectContextFilter);
     for (int clip = 0; clip <= MOCK_OUTPUT; clip += MOCK_OUTPUT)
-        for (int how = 0; how < 6; how++) {
+        for (int how = 0; how < 8; how++) {
             source_and_output();
             mock_picture *const p = &mock.pictures[clip];
             mock.persistent = 0;
@@ -196,8 +196,12 @@ static void senseless_images_are_refused(void **state)
                 p->components = NULL;
             else if (how == 4)
                 p->row_bytes = 17 * 16 - 4;
-            else
+            else if (how == 5)
                 p->row_bytes = 0;
+            else /* bytes are converted, not borrowed */
+                picture_make(p, frame, kOfxBitDepthByte, kOfxImageComponentRGBA, 0, 1);
+            if (how >= 6)
+                p->row_bytes = how == 6 ? 17 * 4 - 1 : 1 - 17 * 4;
             render(effect, frame, kOfxStatErrImageFormat);
             assert_int_equal(mock.persistent, 1);
             assert_non_null(strstr(mock.message, clip ? "Output: " : "Source: "));
@@ -213,6 +217,18 @@ static void senseless_images_are_refused(void **state)
     mock.pictures[MOCK_OUTPUT].row_bytes = INT_MAX;
     render(effect, large, kOfxStatFailed);
     assert_non_null(strstr(mock.message, "200000"));
+    mock_destroy(probe, effect);
+}
+
+static void a_host_out_of_memory_is_a_failure(void **state)
+{
+    (void)state;
+    const OfxImageEffectHandle effect = create(kOfxImageEffectContextGeneral);
+    source_and_output();
+    mock.pictures[1] = mock.pictures[0];
+    mock.pictures[1].starved = true;
+    render(effect, frame, kOfxStatErrMemory);
+    assert_non_null(strstr(mock.message, "Depth: "));
     mock_destroy(probe, effect);
 }
 
@@ -344,6 +360,28 @@ static void the_border_of_an_opaque_clip_is_not_opaque(void **state)
         const float over = c == 3 ? 1 : picture_value(&mock.pictures[3], 1, 5, c);
         assert_true(picture_value(&mock.pictures[MOCK_OUTPUT], 1, 5, c) == over);
     }
+    mock_destroy(probe, effect);
+}
+
+/* Where the host rounds its regions to one pixel more than we do, that pixel belongs to the
+   picture; a larger difference is something else. */
+static void the_hosts_rounding_counts(void **state)
+{
+    (void)state;
+    expected e;
+    const OfxImageEffectHandle effect = create(kOfxImageEffectContextFilter);
+    source_and_output();
+    mock.pictures[0].region = (OfxRectD){-2, 2, 13, 11};
+    expect_defaults(&e);
+    mock.pictures[MOCK_OUTPUT].defined = frame;
+    assert_picture(effect, &e, frame);
+
+    mock.pictures[MOCK_OUTPUT].defined = (wo_rect){0, 3, 1, 4};
+    assert_picture(effect, &e, (wo_rect){-2, 2, 13, 11});
+    mock.pictures[MOCK_OUTPUT].defined = (wo_rect){-5, 2, 14, 11};
+    render(effect, frame, kOfxStatOK);
+    for (int c = 0; c < 4; c++)
+        assert_true(picture_value(&mock.pictures[MOCK_OUTPUT], -3, 5, c) == 0);
     mock_destroy(probe, effect);
 }
 
@@ -530,6 +568,7 @@ int main(void)
         TEST(images_that_are_not_there_are_not_connected),
         TEST(without_source_the_picture_is_black),
         TEST(senseless_images_are_refused),
+        TEST(a_host_out_of_memory_is_a_failure),
         TEST(no_output_image_is_a_failure),
         TEST(windows_are_cut_to_the_output),
         TEST(too_small_an_image_is_asked_for_again),
@@ -537,6 +576,7 @@ int main(void)
         TEST(tiles_make_the_same_bytes),
         TEST(tiles_beside_small_clips_see_what_is_there),
         TEST(the_border_of_an_opaque_clip_is_not_opaque),
+        TEST(the_hosts_rounding_counts),
         TEST(beside_source_is_nothing),
         TEST(scales_and_aspects_reach_the_core),
         TEST(endless_regions_end_at_the_project),

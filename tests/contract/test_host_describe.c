@@ -111,9 +111,8 @@ static void instances_are_checked(void **state)
     wo_host_instance *instance = NULL;
     wo_error error = {0};
     wo_host_project project = WO_HOST_PROJECT_INIT;
-    assert_int_equal(
-        wo_host_instance_create(host, plugin, "Retimer", &project, &instance, &error),
-        WO_ERR_NOT_FOUND);
+    assert_int_equal(wo_host_instance_create(host, plugin, "Retimer", &project, &instance, &error),
+                     WO_ERR_NOT_FOUND);
     project.size[0] = 0;
     assert_int_equal(wo_host_instance_create(host, plugin, NULL, &project, &instance, &error),
                      WO_ERR_RANGE);

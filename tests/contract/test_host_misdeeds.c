@@ -159,8 +159,8 @@ static void live(wo_host *host, const char *name)
 {
     const wo_host_plugin *plugin = NULL;
     wo_host_instance *instance = NULL;
-    const wo_host_project project = {.size = {40, 30}, .pixel_aspect = 1, .frame_rate = 24,
-                                     .first_frame = 1, .last_frame = 10};
+    const wo_host_project project = {
+        .size = {40, 30}, .pixel_aspect = 1, .frame_rate = 24, .first_frame = 1, .last_frame = 10};
     wo_error error = {0};
     const wo_status found = wo_host_find_plugin(host, "Bad", &plugin, &error);
     if ((found != WO_OK) != ends_in(name, no_plugin))
@@ -202,7 +202,8 @@ static void each_is_found(void **state)
     unsetenv("WO_TEST_MISDEED");
 }
 
-/* The same life without a misdeed leaves none; nor does a host without strictness see what is not there. */
+/* The same life without a misdeed leaves none; nor does a host without strictness see what is not
+ * there. */
 static void innocence_is_found_as_well(void **state)
 {
     (void)state;

@@ -64,8 +64,7 @@ static void text_is_read_back(void **state)
     (void)state;
     for (size_t i = 0; i < WO_COUNT(cases); i++) {
         ok(wo_host_param_set_text(instance, cases[i].name, cases[i].text, &ok_error));
-        const int length =
-            wo_host_param_get_text(instance, cases[i].name, 1, back, sizeof back);
+        const int length = wo_host_param_get_text(instance, cases[i].name, 1, back, sizeof back);
         assert_string_equal(back, cases[i].back);
         assert_int_equal(length, strlen(back));
         assert_int_equal(wo_host_param_key_count(instance, cases[i].name), 0);
@@ -128,9 +127,8 @@ static void wrong_text_changes_nothing(void **state)
     for (size_t i = 0; i < WO_COUNT(cases); i++) {
         wo_error error = {0};
         double value = 0;
-        assert_int_equal(
-            wo_host_param_set_text(instance, cases[i].name, cases[i].text, &error),
-            cases[i].status);
+        assert_int_equal(wo_host_param_set_text(instance, cases[i].name, cases[i].text, &error),
+                         cases[i].status);
         assert_int_equal(error.status, cases[i].status);
         if (!strstr(error.text, cases[i].says))
             fail_msg("\"%s\" does not say \"%s\"", error.text, cases[i].says);
@@ -197,8 +195,8 @@ static void other_locales_change_nothing(void **state)
     assert_string_equal(text, "2.5");
 }
 
-/* Buttons, what plugins set in answer, messages, questions, progress, keys: the plugin itself checks the
-   answers of the suites. */
+/* Buttons, what plugins set in answer, messages, questions, progress, keys: the plugin itself
+   checks the answers of the suites. */
 static void buttons_do_their_work(void **state)
 {
     wo_error error = {0};

@@ -117,7 +117,8 @@ static void identity_is_a_copy(void **state)
     tear_down(&s);
 }
 
-/* A window inside a bigger view: pixels outside of the window stay, those without picture are black. */
+/* A window inside a bigger view: pixels outside of the window stay, those without picture are
+ * black. */
 static void windows(void **state)
 {
     (void)state;
@@ -140,8 +141,7 @@ static void windows(void **state)
                 for (int c = 0; c < 4; c++) {
                     const float is = wo_image_at(&view, x, y)[c];
                     const float was = wo_image_at(&before, x, y)[c];
-                    const float twice =
-                        picture ? 2 * wo_image_at(&s.source.image, x, y)[c] : 0;
+                    const float twice = picture ? 2 * wo_image_at(&s.source.image, x, y)[c] : 0;
                     assert_true(is == (in ? twice : was));
                 }
             }
@@ -149,8 +149,8 @@ static void windows(void **state)
         args.window = (wo_rect){-20, 0, 5, 5}; /* not inside the view */
         assert_int_equal(wo_host_render(s.instance, &args, &view, &result, &error),
                          WO_ERR_ARGUMENT);
-        wo_image wrong = {.data = view.data, .bounds = {0, 0, 4, 4}, .row_bytes = 48,
-                          .components = 3};
+        wo_image wrong = {
+            .data = view.data, .bounds = {0, 0, 4, 4}, .row_bytes = 48, .components = 3};
         args.window = (wo_rect){0, 0, 4, 4};
         assert_int_equal(wo_host_render(s.instance, &args, &wrong, &result, &error),
                          WO_ERR_ARGUMENT);
@@ -211,6 +211,10 @@ static void components_follow_preferences(void **state)
     assert_int_equal(image.components, 1);
     assert_true(wo_image_at(&image, 3, 9)[0] == 2 * wo_image_at(&s.source.image, 3, 9)[3]);
     wo_host_image_free(&image);
+    set_text(&s, "mono", "false"); /* and back */
+    ok(wo_host_get_preferences(s.instance, &p, &ok_error));
+    assert_int_equal(p->clips[0].components, 4);
+    assert_int_equal(p->clips[2].components, 4);
     tear_down(&s);
 }
 

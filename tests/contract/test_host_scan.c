@@ -99,8 +99,8 @@ static bool noted(const wo_host *host, const char *text)
 /* The first bytes of the true plugin: a damaged binary. */
 static size_t true_plugin(unsigned char *bytes, size_t size)
 {
-    FILE *f = fopen(WO_TEST_PLUGINS "/good/Good.ofx.bundle/Contents/" WO_TEST_ARCH "/Good.ofx",
-                    "rb");
+    FILE *f =
+        fopen(WO_TEST_PLUGINS "/good/Good.ofx.bundle/Contents/" WO_TEST_ARCH "/Good.ofx", "rb");
     assert_non_null(f);
     const size_t count = fread(bytes, 1, size, f);
     assert_int_equal(fclose(f), 0);
@@ -154,9 +154,24 @@ static void names_with_at_are_skipped(void **state)
     wo_host *host = scan();
     assert_int_equal(wo_host_plugin_count(host), 1);
     assert_string_equal(wo_host_plugin_at(host, 0)->identifier, "org.wideopen.test.Good");
-    assert_true(noted(host, "too many folders in folders"));
-    assert_false(noted(host, "Odd"));
-    assert_false(noted(host, "Bad"));
+    assert_int_equal(wo_host_note_count(host), 0);
+    wo_host_destroy(&host);
+}
+
+static void folders_may_be_missing(void **state)
+{
+    const char *directories[] = {"/nowhere/at/all", root};
+    const wo_host_config config = {.threads = 1, .directories = directories, .directory_count = 2};
+    wo_host *host = NULL;
+    (void)state;
+    file("plain", "x", 1);
+    ok(wo_host_create(&config, &host, &ok_error));
+    assert_int_equal(wo_host_note_count(host), 1);
+    assert_string_equal(wo_host_note(host, 0), "/nowhere/at/all: there is no such folder");
+    char path[128];
+    snprintf(path, sizeof path, "%s/plain", root);
+    ok(wo_host_scan(host, path, &ok_error));
+    assert_true(noted(host, "plain: not a folder"));
     wo_host_destroy(&host);
 }
 
@@ -246,6 +261,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         with_folder(hostile_files),
         with_folder(names_with_at_are_skipped),
+        with_folder(folders_may_be_missing),
         cmocka_unit_test(odd_plugins_are_left_out),
         cmocka_unit_test(binaries_may_refuse),
         with_folder(search_path),

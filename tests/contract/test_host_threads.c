@@ -77,8 +77,12 @@ static void tiles_at_once(void **state)
         fixture_connect(instance, "Source", &still);
         ok(wo_host_param_set_text(instance, "radius", "2", &ok_error));
         wo_image reference = fixture_render(instance, 1, 1, whole, 0, &result);
-        const wo_host_render_args args = {.time = 1, .scale_x = 1, .scale_y = 1, .tile_width = 8,
-                                          .tile_height = 8, .parallel_tiles = 4};
+        const wo_host_render_args args = {.time = 1,
+                                          .scale_x = 1,
+                                          .scale_y = 1,
+                                          .tile_width = 8,
+                                          .tile_height = 8,
+                                          .parallel_tiles = 4};
         ok(wo_host_render(instance, &args, &image, &result, &ok_error));
         assert_int_equal(result.tiles, 6 * 5); /* 44 x 34 */
         fixture_same(&reference, &image);
@@ -173,8 +177,11 @@ static void hosts_can_be_asked_to_stop(void **state)
     static const char *const directories[] = {WO_TEST_PLUGINS "/good"};
     (void)state;
     atomic_int asked = 0;
-    const wo_host_config config = {.threads = 2, .directories = directories, .directory_count = 1,
-                                   .user = &asked, .aborted = always};
+    const wo_host_config config = {.threads = 2,
+                                   .directories = directories,
+                                   .directory_count = 1,
+                                   .user = &asked,
+                                   .aborted = always};
     wo_host *host = NULL;
     ok(wo_host_create(&config, &host, &ok_error));
     wo_host_instance *instance = fixture_instance(host, "Good", "Generator");
@@ -185,6 +192,59 @@ static void hosts_can_be_asked_to_stop(void **state)
     assert_true(atomic_load(&asked) > 0);
     assert_null(image.data);
     wo_host_destroy(&host);
+}
+
+/* A graph: the source of one instance is what another one renders, asked for on any thread. */
+typedef struct node {
+    wo_host_instance *instance;
+    atomic_int renders;
+} node;
+
+static wo_status node_region(void *user, double time, wo_host_region *region, wo_error *error)
+{
+    return wo_host_get_region(((node *)user)->instance, time, 1, 1, region, NULL, error);
+}
+
+static wo_status node_pixels(void *user, const wo_host_request *request, const wo_image *image,
+                             wo_error *error)
+{
+    node *n = user;
+    wo_image view = *image;
+    const wo_host_render_args args = {.time = request->time,
+                                      .scale_x = request->scale_x,
+                                      .scale_y = request->scale_y,
+                                      .window = request->region};
+    atomic_fetch_add(&n->renders, 1);
+    return wo_host_render(n->instance, &args, &view, NULL, error);
+}
+
+static void graphs_are_pulled(void **state)
+{
+    (void)state;
+    wo_host *host = fixture_host("good", 3, true, WO_HOST_NEGATIVE_ROWS);
+    wo_host_still still = {.image = fixture_picture((wo_rect){0, 0, 40, 30}, 4, 5)};
+    node first = {.instance = fixture_instance(host, "Good", "Filter")};
+    wo_host_instance *second = fixture_instance(host, "Good", "General");
+    fixture_connect(first.instance, "Source", &still);
+    ok(wo_host_param_set_text(first.instance, "gain", "2", &ok_error));
+    wo_host_source source = WO_HOST_SOURCE_INIT;
+    source.user = &first;
+    source.region = node_region;
+    source.pixels = node_pixels;
+    ok(wo_host_set_clip(second, "Source", &source, &ok_error));
+    ok(wo_host_param_set_text(second, "gain", "3", &ok_error));
+    wo_image image = fixture_render(second, 1, 1, whole, 10, NULL);
+    assert_int_equal(atomic_load(&first.renders), 12);
+    for (int32_t y = 0; y < 30; y++)
+        for (int32_t x = 0; x < 40; x++)
+            assert_float_equal(wo_image_at(&image, x, y)[2], 6 * wo_image_at(&still.image, x, y)[2],
+                               1e-6);
+    wo_host_image_free(&image);
+    wo_host_instance_destroy(&second);
+    wo_host_instance_destroy(&first.instance);
+    fixture_no_violations(host);
+    wo_host_destroy(&host);
+    free(still.image.data);
 }
 
 static void thread_counts(void **state)
@@ -202,11 +262,9 @@ static void thread_counts(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(many_at_once),
-        cmocka_unit_test(tiles_at_once),
-        cmocka_unit_test(renders_can_be_stopped),
-        cmocka_unit_test(hosts_can_be_asked_to_stop),
-        cmocka_unit_test(thread_counts),
+        cmocka_unit_test(many_at_once),           cmocka_unit_test(tiles_at_once),
+        cmocka_unit_test(renders_can_be_stopped), cmocka_unit_test(hosts_can_be_asked_to_stop),
+        cmocka_unit_test(graphs_are_pulled),      cmocka_unit_test(thread_counts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -256,21 +256,23 @@ static void regions_and_pixels(void **state)
         {{5, 5, 4, 9}, 1, 1, 1, {0, 0, 0, 0}},
         {{0, 0, (double)NAN, 9}, 1, 1, 1, {0, 0, 0, 0}},
         {{-1e30, -1e30, 1e30, 1e30},
-         1, 1, 1,
+         1,
+         1,
+         1,
          {-WO_MAX_COORDINATE, -WO_MAX_COORDINATE, WO_MAX_COORDINATE, WO_MAX_COORDINATE}},
     };
     for (size_t i = 0; i < WO_COUNT(cases); i++)
-        assert_true(wo_rect_equal(wo_region_pixels(cases[i].region, cases[i].sx, cases[i].sy,
-                                                   cases[i].aspect),
-                                  cases[i].pixels));
+        assert_true(wo_rect_equal(
+            wo_region_pixels(cases[i].region, cases[i].sx, cases[i].sy, cases[i].aspect),
+            cases[i].pixels));
     /* There and back again is the same, at all scales. */
     for (int32_t x = -1000; x < 1000; x += 13)
         for (double scale = 0.03; scale < 2; scale *= 1.37) {
             const wo_rect r = {x, x / 2, x + 7, x / 2 + 11};
-            assert_true(wo_rect_equal(
-                wo_region_pixels(wo_pixels_region(r, scale, scale / 3, 1.0940), scale, scale / 3,
-                                 1.0940),
-                r));
+            assert_true(
+                wo_rect_equal(wo_region_pixels(wo_pixels_region(r, scale, scale / 3, 1.0940), scale,
+                                               scale / 3, 1.0940),
+                              r));
         }
 }
 
@@ -296,10 +298,13 @@ static void components_are_converted(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(properties_keep_their_kind), cmocka_unit_test(handles_do_not_come_back),
+        cmocka_unit_test(properties_keep_their_kind),
+        cmocka_unit_test(handles_do_not_come_back),
         cmocka_unit_test(numbers_are_read_and_printed),
-        cmocka_unit_test(keys_are_ordered_and_joined), cmocka_unit_test(keys_of_whole_things_step),
-        cmocka_unit_test(regions_and_pixels), cmocka_unit_test(components_are_converted),
+        cmocka_unit_test(keys_are_ordered_and_joined),
+        cmocka_unit_test(keys_of_whole_things_step),
+        cmocka_unit_test(regions_and_pixels),
+        cmocka_unit_test(components_are_converted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

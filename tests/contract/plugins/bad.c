@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
 
-/* A plugin that commits one breach of the standard, named by the environment variable WO_TEST_MISDEED, and
-   is correct otherwise. */
+/* A plugin that commits one breach of the standard, named by the environment variable
+   WO_TEST_MISDEED, and is correct otherwise. */
 
 #include "host_plugin.h"
 
@@ -280,9 +280,9 @@ static OfxStatus render(OfxImageEffectHandle effect, OfxPropertySetHandle in)
     if (picture_get(output_clip, time, NULL, &output) != kOfxStatOK)
         return kOfxStatFailed;
     const OfxRectD wide = {-1e6, -1e6, 1e6, 1e6};
-    const OfxStatus got = picture_get(source_clip, misdeed("another time") ? time + 1 : time,
-                                      misdeed("beyond the region of interest") ? &wide : NULL,
-                                      &source);
+    const OfxStatus got =
+        picture_get(source_clip, misdeed("another time") ? time + 1 : time,
+                    misdeed("beyond the region of interest") ? &wide : NULL, &source);
     if (misdeed("window not written"))
         window.x2--;
     fill(&output, window);

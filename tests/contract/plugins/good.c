@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
 
-/* A plugin that does everything right: box blur, gain, inversion and mask, with parameters of all kinds.
-   A host that finds fault with it is at fault. */
+/* A plugin that does everything right: box blur, gain, inversion and mask, with parameters of all
+   kinds. A host that finds fault with it is at fault. */
 
 #include "host_plugin.h"
 
@@ -20,7 +20,7 @@ typedef struct state { /* kOfxPropInstanceData */
     int changes;
 } state;
 
-/* ------------------------------------------------------------------------------------------- describe */
+/* ------------------------------------------------------------------------------------- describe */
 
 static OfxStatus describe(OfxImageEffectHandle effect)
 {
@@ -48,8 +48,8 @@ static OfxStatus describe(OfxImageEffectHandle effect)
     return kOfxStatOK;
 }
 
-static void describe_double(OfxImageEffectHandle effect, const char *name, double value,
-                            double max, const char *parent)
+static void describe_double(OfxImageEffectHandle effect, const char *name, double value, double max,
+                            const char *parent)
 {
     OfxPropertySetHandle p = define_param(effect, kOfxParamTypeDouble, name);
     ofx.prop->propSetDouble(p, kOfxParamPropDefault, 0, value);
@@ -119,7 +119,7 @@ static OfxStatus describe_in_context(OfxImageEffectHandle effect, OfxPropertySet
     return kOfxStatOK;
 }
 
-/* ------------------------------------------------------------------------------------------- instance */
+/* ------------------------------------------------------------------------------------- instance */
 
 static state *state_of(OfxImageEffectHandle effect)
 {
@@ -163,8 +163,8 @@ static OfxStatus destroy(OfxImageEffectHandle effect)
     return kOfxStatOK;
 }
 
-/* The button "probe" tries the calls that are of use in InstanceChanged; kOfxStatFailed when one of them
-   answers wrongly. */
+/* The button "probe" tries the calls that are of use in InstanceChanged; kOfxStatFailed when one of
+   them answers wrongly. */
 static OfxStatus probe(OfxImageEffectHandle effect)
 {
     OfxParamSetHandle params = params_of(effect);
@@ -201,10 +201,9 @@ static OfxStatus probe(OfxImageEffectHandle effect)
     ok = ok && ofx.progress->progressStart(effect, "probing", "probe") == kOfxStatOK;
     ok = ok && ofx.progress->progressUpdate(effect, 0.5) == kOfxStatOK;
     ok = ok && ofx.progress->progressEnd(effect) == kOfxStatOK;
-    ok = ok && ofx.message->message(effect, kOfxMessageMessage, "id", "%s %d", "found", 42) ==
-                   kOfxStatOK;
     ok = ok &&
-         ofx.message->message(effect, kOfxMessageQuestion, "q", "sure?") == kOfxStatReplyYes;
+         ofx.message->message(effect, kOfxMessageMessage, "id", "%s %d", "found", 42) == kOfxStatOK;
+    ok = ok && ofx.message->message(effect, kOfxMessageQuestion, "q", "sure?") == kOfxStatReplyYes;
     ok = ok && !ofx_fetch("uk.co.thefoundry.FnOfxImageEffectPlaneSuite", 2) &&
          !ofx_fetch(kOfxPropertySuite, 2);
     return ok ? kOfxStatOK : kOfxStatFailed;
@@ -231,7 +230,7 @@ static OfxStatus changed(OfxImageEffectHandle effect, OfxPropertySetHandle in)
     return kOfxStatReplyDefault;
 }
 
-/* --------------------------------------------------------------------------------------- before pixels */
+/* -------------------------------------------------------------------------------- before pixels */
 
 static OfxStatus preferences(OfxImageEffectHandle effect, OfxPropertySetHandle out)
 {
@@ -307,7 +306,7 @@ static OfxStatus identity(OfxImageEffectHandle effect, OfxPropertySetHandle in,
     return ofx.prop->propSetString(out, kOfxPropName, 0, kOfxImageEffectSimpleSourceClipName);
 }
 
-/* --------------------------------------------------------------------------------------------- render */
+/* --------------------------------------------------------------------------------------- render */
 
 typedef struct work {
     OfxImageEffectHandle effect;

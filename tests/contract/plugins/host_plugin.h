@@ -3,7 +3,8 @@
 #ifndef WO_TEST_HOST_PLUGIN_H
 #define WO_TEST_HOST_PLUGIN_H
 
-/* What the test plugins of the host share: suites and short ways to them. One copy for each plugin. */
+/* What the test plugins of the host share: suites and short ways to them. One copy for each plugin.
+ */
 
 #include "ofxCore.h"
 #include "ofxImageEffect.h"

@@ -16,7 +16,8 @@ struct wo_plan {
     wo_image inputs[PROBE_CLIPS];
     wo_alpha alpha[PROBE_CLIPS];
     int32_t rx, ry;
-    float *weights; /* only there to be allocated */
+    unsigned workers;
+    atomic_bool *busy; /* [workers]: no two calls may be the same worker at once */
 };
 
 static const char *const troubles[] = {"none", "fail", "slow", "wait", NULL};
@@ -179,7 +180,7 @@ static void plan_destroy(wo_plan **place)
     if (!plan)
         return;
     const wo_context context = plan->context;
-    wo_delete(&context, plan->weights);
+    wo_delete(&context, plan->busy);
     wo_delete(&context, plan);
     *place = NULL;
 }
@@ -207,8 +208,9 @@ static wo_status plan_create(const wo_context *context, const void *p, const wo_
             return status;
         }
     }
-    plan->weights = wo_new(context, error, (size_t)plan->rx + 1, sizeof *plan->weights);
-    if (!plan->weights) {
+    plan->workers = wo_workers(context);
+    plan->busy = wo_new(context, error, plan->workers, sizeof *plan->busy);
+    if (!plan->busy) {
         plan_destroy(&plan);
         return WO_ERR_NOMEM;
     }
@@ -294,6 +296,7 @@ typedef struct work {
     const wo_image *output;
     wo_rect window;
     atomic_bool aborted;
+    atomic_bool clash; /* of workers */
     atomic_int rows;
 } work;
 
@@ -304,13 +307,8 @@ static void pause_a_little(void)
         continue;
 }
 
-static void row(void *job, size_t index, unsigned worker)
+static void draw_row(work *w, int32_t y)
 {
-    work *const w = job;
-    const int32_t y = w->window.y1 + (int32_t)index;
-    (void)worker;
-    if (atomic_load(&w->aborted))
-        return;
     if (w->plan->params.trouble >= PROBE_TROUBLE_SLOW)
         pause_a_little();
     while (w->plan->params.trouble == PROBE_TROUBLE_WAIT && !wo_aborted(&w->plan->context))
@@ -327,6 +325,18 @@ static void row(void *job, size_t index, unsigned worker)
                                   (double)done / wo_rect_height(w->window));
 }
 
+static void row(void *job, size_t index, unsigned worker)
+{
+    work *const w = job;
+    if (worker >= w->plan->workers || atomic_exchange(&w->plan->busy[worker], true)) {
+        atomic_store(&w->clash, true);
+        return;
+    }
+    if (!atomic_load(&w->aborted))
+        draw_row(w, w->window.y1 + (int32_t)index);
+    atomic_store(&w->plan->busy[worker], false);
+}
+
 static wo_status render(const wo_plan *plan, wo_rect window, const wo_image *output,
                         wo_report *report, wo_error *error)
 {
@@ -336,8 +346,11 @@ static wo_status render(const wo_plan *plan, wo_rect window, const wo_image *out
     if (plan->params.trouble == PROBE_TROUBLE_FAIL)
         return wo_fail(error, WO_ERR_INTERNAL, "trouble was asked for: %s", plan->params.note);
     atomic_init(&w.aborted, false);
+    atomic_init(&w.clash, false);
     atomic_init(&w.rows, 0);
     wo_run(&plan->context, row, &w, (size_t)wo_rect_height(window));
+    if (atomic_load(&w.clash))
+        return wo_fail(error, WO_ERR_INTERNAL, "two calls at once are the same worker");
     if (atomic_load(&w.aborted))
         return WO_ABORTED;
     if (report) {

@@ -3,6 +3,8 @@
 #include "ofx_plugin.h"
 #include "probe_effect.h"
 
+#include <string.h>
+
 static wo_ofx_plugin plugin;
 
 static void set_host(OfxHost *host)
@@ -33,4 +35,42 @@ static wo_ofx_plugin plugin = {
     .effect = effect,
 };
 
-wo_ofx_plugin *const wo_ofx_plugins[] = {&plugin, NULL};
+/* The same with a Depth it will not go without, where the context lets it. */
+static wo_ofx_plugin demanding;
+
+static void demanding_set_host(OfxHost *host)
+{
+    demanding.host = host;
+}
+
+static OfxStatus demanding_entry(const char *action, const void *handle, OfxPropertySetHandle in,
+                                 OfxPropertySetHandle out)
+{
+    return wo_ofx_main(&demanding, action, handle, in, out);
+}
+
+static const wo_effect *demanding_effect(void)
+{
+    static wo_clip clips[PROBE_CLIPS];
+    static wo_effect effect_with_depth;
+    memcpy(clips, probe_effect.clips, sizeof clips);
+    clips[PROBE_DEPTH].optional = false;
+    effect_with_depth = probe_effect;
+    effect_with_depth.name = "Demanding";
+    effect_with_depth.clips = clips;
+    return &effect_with_depth;
+}
+
+static wo_ofx_plugin demanding = {
+    .ofx = {.pluginApi = kOfxImageEffectPluginApi,
+            .apiVersion = kOfxImageEffectPluginApiVersion,
+            .pluginIdentifier = "org.wideopen.test.Demanding",
+            .pluginVersionMajor = 1,
+            .pluginVersionMinor = 0,
+            .setHost = demanding_set_host,
+            .mainEntry = demanding_entry},
+    .group = "WideOpen/Test",
+    .effect = demanding_effect,
+};
+
+wo_ofx_plugin *const wo_ofx_plugins[] = {&plugin, &demanding, NULL};

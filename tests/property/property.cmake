@@ -1,0 +1,18 @@
+# Properties of LensBlur as a whole: what must hold whatever the picture is.
+find_package(Threads REQUIRED)
+set(property_dir ${CMAKE_CURRENT_LIST_DIR})
+
+# Scenes, random numbers and threads for the tests of the core.
+add_library(wo_test_scenes STATIC ${property_dir}/scenes.c)
+target_include_directories(wo_test_scenes PUBLIC
+    ${property_dir} ${PROJECT_SOURCE_DIR}/core ${PROJECT_SOURCE_DIR})
+target_link_libraries(wo_test_scenes PUBLIC
+    wo_core wo_base wo_options cmocka Threads::Threads m)
+
+foreach(name IN ITEMS invariance layout lens_image quality)
+    add_executable(test_${name} ${property_dir}/test_${name}.c)
+    target_link_libraries(test_${name} PRIVATE wo_test_scenes)
+    add_test(NAME property.${name} COMMAND test_${name})
+    set_tests_properties(property.${name} PROPERTIES TIMEOUT 300)
+endforeach()
+set_tests_properties(property.layout PROPERTIES LABELS threads)
