@@ -30,6 +30,8 @@ typedef struct wo_march_view {
     const float *opaque; /* 1 where the scene as given lets no light through, else 0 */
     ptrdiff_t run, row;  /* of the stack */
     wo_bounds bounds[WO_SHEETS_MAX]; /* of each sheet over the footprint of the tile */
+    const wo_bounds *spans[WO_SHEETS_MAX];
+    int32_t span_columns;
     float v_connect; /* dioptres: neighbours closer than this are one surface */
 } wo_march_view;
 

@@ -151,6 +151,98 @@ static void meet_in_order(rays *r, hit *hits, int count, const bool *guessed)
     }
 }
 
+/* A ray's way through the sheets, in steps from near to far: step = dir i. */
+typedef struct way {
+    line l;
+    int dir;
+    int first, last;
+    float base;  /* the step of a surface at vergence v is base - fall v */
+    float fall;  /* >= 0 */
+    int from[WO_SHEETS_MAX], to[WO_SHEETS_MAX]; /* no surface of the sheet is met before or after */
+} way;
+
+/* Part of a way, at most WO_CELL steps, and the sheets that may be met in it. */
+typedef struct stretch {
+    int count;
+    int sheet[WO_SHEETS_MAX];
+    int from[WO_SHEETS_MAX], to[WO_SHEETS_MAX];
+    int first, last;
+} stretch;
+
+WO_SIMD way way_of(const wo_march_view *view, const wo_pencil *pencil, int n)
+{
+    way w;
+    w.l = line_of(pencil, n);
+    w.dir = w.l.bm >= 0 ? -1 : 1;
+    w.base = w.l.am * (float)w.dir;
+    w.fall = fabsf(w.l.bm);
+    w.first = INT_MAX;
+    w.last = INT_MIN;
+    for (int s = 0; s < view->sheets; s++) {
+        w.from[s] = nearest(w.base - w.fall * view->bounds[s].v_max);
+        w.to[s] = nearest(w.base - w.fall * view->bounds[s].v_min);
+        w.first = w.from[s] < w.first ? w.from[s] : w.first;
+        w.last = w.to[s] > w.last ? w.to[s] : w.last;
+    }
+    return w;
+}
+
+/* Across the longer axis at a step. */
+WO_SIMD int across_at(const way *w, int step)
+{
+    return nearest(w->l.n0 + w->l.slope * (float)(w->dir * step));
+}
+
+/* Where a way is at a step, as an offset from the pixels. */
+WO_SIMD ptrdiff_t way_place(const wo_march_view *view, int32_t x, int32_t y, int run_index,
+                            const way *w, int step)
+{
+    const int i = w->dir * step;
+    const int j = across_at(w, step);
+    return w->l.upright ? place(view, x, y, run_index, j, i) : place(view, x, y, run_index, i, j);
+}
+
+/* Sheets with a surface that can be met in steps first..last: hit within half a step, or crossed
+   by up to the length of a connection. */
+WO_SIMD void look_ahead(const wo_march_view *view, int32_t x, int32_t y, int run_index,
+                        const way *w, int first, int last, stretch *out)
+{
+    const int i0 = w->dir * first;
+    const int i1 = w->dir * last;
+    const int j0 = across_at(w, first);
+    const int j1 = across_at(w, last);
+    const int i = i0 < i1 ? i0 : i1;
+    const int j = j0 < j1 ? j0 : j1;
+    const int32_t left = x + run_index + (w->l.upright ? j : i);
+    const int32_t low = y + (w->l.upright ? i : j);
+    const ptrdiff_t cell = (ptrdiff_t)(low / WO_CELL) * view->span_columns + left / WO_CELL;
+    out->count = 0;
+    out->first = INT_MAX;
+    out->last = INT_MIN;
+    for (int s = 0; s < view->sheets; s++) {
+        if (first > w->to[s] || last < w->from[s])
+            continue;
+        const wo_bounds b = view->spans[s][cell];
+        const float nearest_step = w->base - w->fall * b.v_max - 0.51f;
+        const float farthest_step = w->base - w->fall * b.v_min + (0.51f + WO_CONNECT_PX);
+        if (!(nearest_step <= (float)last && farthest_step >= (float)first))
+            continue;
+        int from = w->from[s] > first ? w->from[s] : first;
+        int to = w->to[s] < last ? w->to[s] : last;
+        if (nearest_step > (float)from)
+            from = (int)ceilf(nearest_step);
+        if (farthest_step < (float)to)
+            to = (int)floorf(farthest_step);
+        if (from > to)
+            continue;
+        out->sheet[out->count] = s;
+        out->from[out->count] = from;
+        out->to[out->count++] = to;
+        out->first = from < out->first ? from : out->first;
+        out->last = to > out->last ? to : out->last;
+    }
+}
+
 static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index,
                   const wo_pencil *pencil, wo_march_sums *sums)
 {
@@ -159,7 +251,6 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
     const vf one = v_set(1);
     const vf connect = v_set(1 + WO_CONNECT_PX);
     const vf light_min = v_set(WO_LIGHT_MIN);
-    const int sheets = view->sheets;
     vf total[6];
     vf chunk[6];
     for (int k = 0; k < 6; k++)
@@ -167,83 +258,84 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
     int64_t steps = 0;
 
     for (int n = 0; n < pencil->count; n++) {
-        const line l = line_of(pencil, n);
-        /* From near to far, bm v falls or rises with the sign of bm; each sheet has its own part of
-           the way: no surface of it is met before or after. */
-        const int dir = l.bm >= 0 ? -1 : 1;
-        int from[WO_SHEETS_MAX];
-        int to[WO_SHEETS_MAX];
-        int first = INT_MAX;
-        int last = INT_MIN;
-        for (int s = 0; s < sheets; s++) {
-            from[s] = dir * nearest(l.am + l.bm * view->bounds[s].v_max);
-            to[s] = dir * nearest(l.am + l.bm * view->bounds[s].v_min);
-            first = from[s] < first ? from[s] : first;
-            last = to[s] > last ? to[s] : last;
-        }
-        const vf bm = v_set(l.bm * (float)dir);
+        const way w = way_of(view, pencil, n);
+        const vf fall = v_set(-w.fall);
         rays r = {one, {v_set(0), v_set(0), v_set(0), v_set(0)}, v_set(0)};
         vm alive = m_set(-1);
         vf before[WO_SHEETS_MAX]; /* e of the step before: above 0.5 = in front */
-        for (int s = 0; s < sheets; s++)
-            before[s] = v_set(NAN);
-        int next = first;
-        for (int step = first; step <= last; step = next) {
-            const int i = dir * step;
-            next = INT_MAX;
-            const int j = nearest(l.n0 + l.slope * (float)i);
-            const int dx = l.upright ? j : i;
-            const int dy = l.upright ? i : j;
-            const ptrdiff_t at = place(view, x, y, run_index, dx, dy);
-            const vf origin = v_set((l.am - (float)i) * (float)dir);
-            hit hits[WO_SHEETS_MAX];
-            int count = 0;
-            const int smooth = i <= WO_SMOOTH_PX && i >= -WO_SMOOTH_PX;
-            for (int s = 0; s < sheets; s++) {
-                if (step < from[s] || step >= to[s]) {
-                    if (step < from[s])
-                        next = from[s] < next ? from[s] : next;
-                    if (step != to[s])
-                        continue;
-                } else {
-                    next = step + 1;
-                }
+        int known[WO_SHEETS_MAX]; /* the step that before belongs to */
+        for (int s = 0; s < view->sheets; s++)
+            known[s] = INT_MIN;
+        for (int begin = w.first; begin <= w.last && m_any(alive); begin += WO_CELL) {
+            const int end = begin + WO_CELL - 1 < w.last ? begin + WO_CELL - 1 : w.last;
+            stretch part;
+            look_ahead(view, x, y, run_index, &w, begin, end, &part);
+            for (int a = 0; a < part.count; a++) {
+                const int s = part.sheet[a];
+                const int step = part.from[a] - 1;
+                if (known[s] == step)
+                    continue;
+                known[s] = step;
+                before[s] = v_set(NAN);
+                if (step < w.from[s])
+                    continue;
+                const ptrdiff_t at = way_place(view, x, y, run_index, &w, step);
+                before[s] =
+                    v_fma(fall, v_load(view->v[s] + at), v_set(w.base - (float)step));
                 steps++;
-                const vf v = v_load(view->v[s] + at);
-                const vf e = v_fma(bm, v, origin);
-                const vf e0 = before[s];
-                before[s] = e;
-                vm m = v_less_equal(v_abs(e), half);
-                const vm crossed = m_and(m_and(v_less(e, minus_half), v_less(half, e0)),
-                                         v_less_equal(v_sub(e0, e), connect));
-                m = m_and(m_or(m, crossed), alive);
-                if (!m_any(m))
-                    continue;
-                hit *h = &hits[count++];
-                h->mask = m;
-                h->v = v;
-                h->sheet = s;
-                if (!smooth) {
-                    for (int k = 0; k < 4; k++)
-                        h->c[k] = v_load(view->c[s][k] + at);
-                    continue;
-                }
-                /* Where along the axis the surface is met, beside this pixel's centre. */
-                const vf cross_t = v_sub(v_div(e0, v_sub(e0, e)), one);
-                const vf t =
-                    v_mask(m, v_mul(v_set((float)dir), v_select(crossed, cross_t, e)));
-                const vf across = v_fma(v_set(l.slope), t,
-                                        v_set(l.n0 + l.slope * (float)i - (float)j));
-                if (l.upright)
-                    sample_smooth(view, s, x, y, run_index, dx, dy, across, t, h->c);
-                else
-                    sample_smooth(view, s, x, y, run_index, dx, dy, t, across, h->c);
             }
-            if (count == 1)
-                meet(&r, hits[0].mask, hits[0].c, view->guessed[hits[0].sheet]);
-            else if (count > 1)
-                meet_in_order(&r, hits, count, view->guessed);
-            if (count > 0) {
+            for (int step = part.first; step <= part.last; step++) {
+                const int i = w.dir * step;
+                const int j = across_at(&w, step);
+                const int dx = w.l.upright ? j : i;
+                const int dy = w.l.upright ? i : j;
+                const ptrdiff_t at = place(view, x, y, run_index, dx, dy);
+                const vf origin = v_set(w.base - (float)step);
+                const int smooth = i <= WO_SMOOTH_PX && i >= -WO_SMOOTH_PX;
+                hit hits[WO_SHEETS_MAX];
+                int count = 0;
+                for (int a = 0; a < part.count; a++) {
+                    if (step < part.from[a] || step > part.to[a])
+                        continue;
+                    const int s = part.sheet[a];
+                    const vf v = v_load(view->v[s] + at);
+                    const vf e = v_fma(fall, v, origin);
+                    const vf e0 = before[s];
+                    before[s] = e;
+                    known[s] = step;
+                    steps++;
+                    vm m = v_less_equal(v_abs(e), half);
+                    const vm crossed = m_and(m_and(v_less(e, minus_half), v_less(half, e0)),
+                                             v_less_equal(v_sub(e0, e), connect));
+                    m = m_and(m_or(m, crossed), alive);
+                    if (!m_any(m))
+                        continue;
+                    hit *h = &hits[count++];
+                    h->mask = m;
+                    h->v = v;
+                    h->sheet = s;
+                    if (!smooth) {
+                        for (int k = 0; k < 4; k++)
+                            h->c[k] = v_load(view->c[s][k] + at);
+                        continue;
+                    }
+                    /* Where along the axis the surface is met, beside this pixel's centre. */
+                    const vf cross_t = v_sub(v_div(e0, v_sub(e0, e)), one);
+                    const vf t = v_mask(
+                        m, v_mul(v_set((float)w.dir), v_select(crossed, cross_t, e)));
+                    const vf across = v_fma(v_set(w.l.slope), t,
+                                            v_set(w.l.n0 + w.l.slope * (float)i - (float)j));
+                    if (w.l.upright)
+                        sample_smooth(view, s, x, y, run_index, dx, dy, across, t, h->c);
+                    else
+                        sample_smooth(view, s, x, y, run_index, dx, dy, t, across, h->c);
+                }
+                if (count == 0)
+                    continue;
+                if (count == 1)
+                    meet(&r, hits[0].mask, hits[0].c, view->guessed[hits[0].sheet]);
+                else
+                    meet_in_order(&r, hits, count, view->guessed);
                 alive = v_less(light_min, r.light);
                 if (!m_any(alive))
                     break;
@@ -252,21 +344,18 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
         const vf left = r.light;
         vm ends = m_except(m_set(-1), alive);
         if (m_any(alive)) {
-            const int j = nearest(l.n0 + l.slope * (float)(dir * last));
-            const int dx = l.upright ? j : dir * last;
-            const int dy = l.upright ? dir * last : j;
-            const vm lost = m_and(
-                v_less(half, v_load(view->opaque + place(view, x, y, run_index, dx, dy))), alive);
+            const ptrdiff_t at = way_place(view, x, y, run_index, &w, w.last);
+            const vm lost = m_and(v_less(half, v_load(view->opaque + at)), alive);
             ends = m_or(ends, lost);
             r.guessed = v_add(r.guessed, v_mask(lost, left));
         }
         vf weight = v_select(ends, v_sub(one, left), one);
         if (pencil->weight) {
-            const vf w = v_set(pencil->weight[n]);
+            const vf p = v_set(pencil->weight[n]);
             for (int k = 0; k < 4; k++)
-                r.c[k] = v_mul(r.c[k], w);
-            weight = v_mul(weight, w);
-            r.guessed = v_mul(r.guessed, w);
+                r.c[k] = v_mul(r.c[k], p);
+            weight = v_mul(weight, p);
+            r.guessed = v_mul(r.guessed, p);
         }
         for (int k = 0; k < 4; k++)
             chunk[k] = v_add(chunk[k], r.c[k]);

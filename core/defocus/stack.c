@@ -75,6 +75,28 @@ static void bound_row(void *user, size_t index, unsigned worker)
     }
 }
 
+/* Min/max N-buffers (Decoret 2005) of one size. */
+static void span_row(void *user, size_t index, unsigned worker)
+{
+    (void)worker;
+    const pack_job *job = user;
+    const wo_stack *stack = job->stack;
+    const size_t columns = (size_t)stack->cell_columns;
+    const size_t rows = (size_t)stack->cell_rows;
+    for (int s = 0; s < stack->sheets; s++) {
+        for (size_t i = 0; i < columns; i++) {
+            wo_bounds span = {INFINITY, -INFINITY};
+            for (size_t j = index; j < index + WO_SPAN_Y && j < rows; j++)
+                for (size_t k = i; k < i + WO_SPAN_X && k < columns; k++) {
+                    const wo_bounds cell = stack->cells[s][j * columns + k];
+                    span.v_min = cell.v_min < span.v_min ? cell.v_min : span.v_min;
+                    span.v_max = cell.v_max > span.v_max ? cell.v_max : span.v_max;
+                }
+            stack->spans[s][index * columns + i] = span;
+        }
+    }
+}
+
 wo_status wo_stack_create(const wo_context *context, const wo_sheet *sheets, size_t count,
                           const uint8_t *opaque, wo_rect area, wo_rect extent, wo_stack *stack,
                           wo_error *error)
@@ -97,7 +119,7 @@ wo_status wo_stack_create(const wo_context *context, const wo_sheet *sheets, siz
         const size_t plane = (size_t)stack->row * h;
         const size_t cells = (size_t)stack->cell_columns * (size_t)stack->cell_rows;
         stack->cell_memory = wo_new(context, error, cells * (size_t)stack->sheets,
-                                    sizeof **stack->cells + sizeof **stack->gaps);
+                                    2 * sizeof **stack->cells + sizeof **stack->gaps);
         stack->memory =
             wo_new(context, error, plane, ((size_t)stack->sheets * 5 + 1) * sizeof *stack->memory);
         if (!stack->memory || !stack->cell_memory) {
@@ -108,18 +130,21 @@ wo_status wo_stack_create(const wo_context *context, const wo_sheet *sheets, siz
         stack->opaque = next;
         next += plane;
         wo_bounds *const bounds = stack->cell_memory;
-        bool *const gaps = (bool *)(bounds + cells * (size_t)stack->sheets);
+        wo_bounds *const spans = bounds + cells * (size_t)stack->sheets;
+        bool *const gaps = (bool *)(spans + cells * (size_t)stack->sheets);
         for (int s = 0; s < stack->sheets; s++) {
             stack->v[s] = next;
             for (int k = 0; k < 4; k++)
                 stack->c[s][k] = next + plane * (size_t)(k + 1);
             next += 5 * plane;
             stack->cells[s] = bounds + cells * (size_t)s;
+            stack->spans[s] = spans + cells * (size_t)s;
             stack->gaps[s] = gaps + cells * (size_t)s;
         }
     }
     wo_run(context, pack_row, &job, h);
     wo_run(context, bound_row, &job, (size_t)stack->cell_rows);
+    wo_run(context, span_row, &job, (size_t)stack->cell_rows);
     return WO_OK;
 }
 

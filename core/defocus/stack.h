@@ -19,6 +19,9 @@
 #define WO_TILE_HEIGHT 16
 #define WO_SHEETS_MAX  10
 #define WO_CELL        8 /* px, side of a cell of bounds */
+/* What a vector can touch in WO_CELL steps of a ray, wherever it starts in a cell. */
+#define WO_SPAN_X 6
+#define WO_SPAN_Y 2
 
 /* Bounds of one sheet over some pixels; v_min > v_max when it has no surface there. */
 typedef struct wo_bounds {
@@ -37,6 +40,7 @@ typedef struct wo_stack {
     float *memory;
     int32_t cell_columns, cell_rows;
     wo_bounds *cells[WO_SHEETS_MAX]; /* [rows][columns] */
+    wo_bounds *spans[WO_SHEETS_MAX]; /* [rows][columns] over the WO_SPAN_X x WO_SPAN_Y cells from here on */
     bool *gaps[WO_SHEETS_MAX];       /* [rows][columns] true = the sheet is empty somewhere */
     void *cell_memory;
 } wo_stack;

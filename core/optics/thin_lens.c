@@ -12,15 +12,17 @@ wo_status wo_thin_lens_make(double focal_mm, double sensor_mm, double f_stop, do
         return wo_fail(error, WO_ERR_RANGE, "focal length %g mm: must be above 0 mm", focal_mm);
     if (!(sensor_mm > 0 && sensor_mm <= 1e6))
         return wo_fail(error, WO_ERR_RANGE, "sensor width %g mm: must be above 0 mm", sensor_mm);
-    if (!(f_stop > 0))
+    if (!(f_stop > 0 && isfinite(f_stop)))
         return wo_fail(error, WO_ERR_RANGE, "f-number %g: must be above 0", f_stop);
     if (!isfinite(focus_m))
         return wo_fail(error, WO_ERR_RANGE, "focus distance %g m: must be finite; 0 is infinity",
                        focus_m);
-    if (!(width_px > 0))
+    if (!(width_px > 0 && isfinite(width_px)))
         return wo_fail(error, WO_ERR_RANGE, "picture width %g px: must be above 0", width_px);
     const double focal_m = focal_mm * 1e-3;
-    const double vf = focus_m != 0 ? 1 / focus_m : 0;
+    /* As for depths, nothing is nearer than WO_VERGENCE_MAX can say. */
+    const double vf =
+        focus_m != 0 ? fmin(fmax(1 / focus_m, -WO_VERGENCE_MAX), WO_VERGENCE_MAX) : 0;
     double image_m = focal_m;
     if (breathing) {
         if (!(vf * focal_m < 1))

@@ -50,6 +50,8 @@ typedef struct wo_context {
 /* Instruction sets of this machine, limited by mask. Any thread. */
 int wo_cpu_detect(int mask);
 
+/* In the functions below a NULL context means one of zeros. */
+
 /* Zeroed array of count elements of size bytes from the context's allocator. NULL and a text in
    *error on failure; count or size 0 and overflow are failures. Any thread. */
 void *wo_new(const wo_context *context, wo_error *error, size_t count, size_t size) WO_NODISCARD;

@@ -74,7 +74,8 @@ void wo_report_leave_out(wo_report *report, const char *what, const char *why, d
 /* Adds the counters of part to total (several windows of one picture). */
 void wo_report_add(wo_report *total, const wo_report *part);
 
-/* One JSON object, always complete and valid; returns the length as snprintf does. */
+/* One JSON object, always complete and valid; what is not finite becomes null, and when it does not fit
+   the buffer holds {} only. Returns the length as snprintf does. */
 int wo_report_json(const wo_report *report, char *buffer, size_t size);
 
 #ifdef __cplusplus

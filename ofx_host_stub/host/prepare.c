@@ -129,10 +129,12 @@ static wo_status default_region(wo_host_instance *instance, double time, wo_host
             source || (!filter && !wo_props_int(&port->props, kOfxImageClipPropOptional, 0, 0));
         if (!port->connected || !counts)
             continue;
-        const wo_status status = wo_port_region(port, time, &one, error);
+        wo_error local = {0};
+        const wo_status status = wo_port_region(port, time, &one, &local);
         if (status == WO_ERR_NOT_FOUND) /* no picture at this time */
             continue;
-        WO_TRY(status);
+        if (status != WO_OK)
+            return wo_fail(error, status, "%s", local.text);
         all = join(all, one);
     }
     if (!region_empty(all))

@@ -253,10 +253,12 @@ static wo_status copy_clip(render *r, wo_port *port, double time, wo_error *erro
 {
     wo_host_region defined;
     wo_buffer buffer;
-    const wo_status known = wo_port_region(port, time, &defined, error);
-    if (known == WO_ERR_NOT_FOUND) /* no picture: black */
+    wo_error local = {0};
+    wo_status status = wo_port_region(port, time, &defined, &local);
+    if (status == WO_ERR_NOT_FOUND) /* no picture: black */
         return WO_OK;
-    WO_TRY(known);
+    if (status != WO_OK)
+        return wo_fail(error, status, "%s", local.text);
     if (wo_region_infinite(defined))
         defined = wo_project_region(r->instance);
     const wo_rect window = wo_rect_intersect(
@@ -265,11 +267,13 @@ static wo_status copy_clip(render *r, wo_port *port, double time, wo_error *erro
         return WO_OK;
     if (!wo_buffer_make(r->instance->object.host, &buffer, window, r->view.components))
         return wo_fail(error, WO_ERR_NOMEM, "no memory for pixels of %.60s", port->name);
-    wo_status status = wo_fetch_pixels(port, time, r->scale, &buffer.view, error);
+    status = wo_fetch_pixels(port, time, r->scale, &buffer.view, &local);
     if (status == WO_OK)
         wo_copy_window(&buffer.view, &r->view, window);
     wo_buffer_free(&buffer);
-    return status == WO_ERR_NOT_FOUND ? WO_OK : status;
+    if (status == WO_OK || status == WO_ERR_NOT_FOUND)
+        return WO_OK;
+    return wo_fail(error, status, "%s", local.text);
 }
 
 /* Plugins that do not take images of different sizes get only those of the project's. */
@@ -283,10 +287,12 @@ static wo_status check_resolution(const render *r, wo_error *error)
         wo_host_region d;
         if (!port->connected)
             continue;
-        const wo_status status = wo_port_region(port, r->args->time, &d, error);
+        wo_error local = {0};
+        const wo_status status = wo_port_region(port, r->args->time, &d, &local);
         if (status == WO_ERR_NOT_FOUND)
             continue;
-        WO_TRY(status);
+        if (status != WO_OK)
+            return wo_fail(error, status, "%s", local.text);
         if (d.x1 != p.x1 || d.y1 != p.y1 || d.x2 != p.x2 || d.y2 != p.y2)
             return wo_fail(error, WO_ERR_UNSUPPORTED,
                            "%.80s wants clips of the project's size; %.60s is not",

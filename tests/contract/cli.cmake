@@ -4,4 +4,5 @@ target_link_libraries(json_check PRIVATE wo_options)
 add_test(NAME contract.cli
     COMMAND ${CMAKE_CURRENT_LIST_DIR}/cli.sh $<TARGET_FILE:wideopen> $<TARGET_FILE:json_check>
             ${CMAKE_CURRENT_BINARY_DIR}/cli_work)
-set_tests_properties(contract.cli PROPERTIES LABELS threads TIMEOUT 600)
+set_tests_properties(contract.cli PROPERTIES LABELS threads TIMEOUT 600
+    ENVIRONMENT "TSAN_OPTIONS=suppressions=${CMAKE_CURRENT_LIST_DIR}/cli_tsan.supp")

@@ -147,10 +147,11 @@ expect 0 describe LensBlur --plugin-path .
 
 expect 0 footage two-planes -o scene --size 96x64 --layers 2 --reference 16 --no-progress
 silent
-scene=scene/two-planes.exr
+scene=scene/pinhole.exr
 reference=scene/reference.exr
 present "$scene"
 present "$reference"
+present scene/layers.exr
 expect 2 footage no-such-scene -o scene2
 says still-life
 expect 2 footage two-planes -o scene2 --size 96
@@ -181,7 +182,7 @@ says NoSuchSpace
 blur() {
     wanted=$1
     shift
-    expect "$wanted" render LensBlur --clip "Source=$scene" --clip "Depth=$scene:Z" \
+    expect "$wanted" render LensBlur --clip "Source=$scene" --clip "Depth=$scene:depth" \
         --set samples=8 --no-progress "$@"
 }
 
@@ -207,6 +208,11 @@ value report.json params.samples 8
 above "$("$wideopen" json report.json rays)" 0 "rays of the report"
 expect 0 compare "$reference" out.exr
 above "$(psnr "$reference" out.exr)" "$(psnr "$reference" "$scene")" "blurred against sharp"
+
+expect 0 render LensBlur --clip Source=scene/layers.exr:layer1 --no-progress \
+    --clip Depth=scene/layers.exr:layer1_depth --clip Layer2=scene/layers.exr:layer2 \
+    --clip Depth2=scene/layers.exr:layer2_depth --set samples=64 -o layers.exr
+above "$(psnr "$reference" layers.exr)" "$(psnr "$reference" out.exr)" "layers against one picture"
 
 blur 0 -o again.exr --json --no-metadata
 is_json stdout
@@ -244,7 +250,7 @@ cp "$scene" in.0002.exr
 sequence() {
     wanted=$1
     shift
-    expect "$wanted" render LensBlur --clip 'Source=in.####.exr' --clip 'Depth=in.%04d.exr:Z' \
+    expect "$wanted" render LensBlur --clip 'Source=in.####.exr' --clip 'Depth=in.%04d.exr:depth' \
         --set samples=4 --no-progress "$@"
 }
 sequence 0 --frames 1-2 -o 'moved.####.exr' --set focusDistance=@1:1,@2:50 --report report.json
@@ -316,8 +322,8 @@ blur 1 -o kept.exr --window 1000,0,1010,10
 rm -f report.json
 expect 0 footage two-planes -o large --size 384x256 --layers 1 --no-progress
 checks=$((checks + 1))
-timeout --preserve-status -s INT 2 "$wideopen" render LensBlur --clip "Source=large/two-planes.exr" \
-    --clip "Depth=large/two-planes.exr:Z" --set samples=16384 --set fStop=0.7 -o kept.exr \
+timeout --preserve-status -s INT 2 "$wideopen" render LensBlur --clip "Source=large/pinhole.exr" \
+    --clip "Depth=large/pinhole.exr:depth" --set samples=16384 --set fStop=0.7 -o kept.exr \
     --report report.json --no-progress >stdout 2>stderr
 code=$?
 [ "$code" -eq 130 ] || fail "interrupted: exit code $code instead of 130"

@@ -29,7 +29,10 @@ target_link_libraries(test_ofx_pixels PRIVATE wo_glue_fixture)
 add_test(NAME unit.ofx_pixels COMMAND test_ofx_pixels)
 
 # Under the host that forgives nothing.
-add_executable(test_glue ${CMAKE_CURRENT_LIST_DIR}/test_glue.c ${probe_dir}/probe_effect.c)
+add_executable(test_glue
+    ${CMAKE_CURRENT_LIST_DIR}/test_glue.c
+    ${CMAKE_CURRENT_LIST_DIR}/strict_fixture.c
+    ${probe_dir}/probe_effect.c)
 target_include_directories(test_glue PRIVATE ${CMAKE_CURRENT_LIST_DIR})
 target_compile_definitions(test_glue PRIVATE PROBE_DIRECTORY="${probe_bundles}")
 target_link_libraries(test_glue PRIVATE wo_host wo_base wo_options cmocka Threads::Threads m)

@@ -356,12 +356,19 @@ static void sources_may_fail(void **state)
         args.time = 1;
         assert_int_equal(wo_host_render(s.instance, &args, &image, NULL, &error), cases[i].status);
         assert_non_null(strstr(error.text, cases[i].text));
+        assert_int_equal(error.status, cases[i].status);
         if (cases[i].status == WO_OK) {
             assert_int_equal(wo_rect_width(image.bounds), 40);
             assert_true(image.data[0] == (what == INFINITE_REGION ? 1.0f : 0.0f));
         } else {
             assert_null(image.data);
         }
+        wo_host_image_free(&image);
+        set_text(&s, "gain", "1"); /* the same as an identity */
+        error = (wo_error){0};
+        assert_int_equal(wo_host_render(s.instance, &args, &image, NULL, &error), cases[i].status);
+        assert_non_null(strstr(error.text, cases[i].text));
+        assert_int_equal(error.status, cases[i].status);
         wo_host_image_free(&image);
         tear_down(&s);
     }

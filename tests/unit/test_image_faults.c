@@ -89,7 +89,7 @@ static void cut_files(void **state)
         if (!bytes)
             break;
         size_t shortest = size;
-        for (size_t length = 0; length < size; length += length < 600 ? 1 : 13) {
+        for (size_t length = 0; length < size; length += length < 64 ? 1 : 7 + size / 150) {
             write_bytes(in_folder(name), bytes, length);
             if (try_read(name) == WO_OK && length < shortest)
                 shortest = length;
@@ -109,7 +109,7 @@ static void spoilt_files(void **state)
 {
     (void)state;
     const char *const rounds_text = getenv("WO_TEST_ROUNDS");
-    const int rounds = rounds_text ? atoi(rounds_text) : 300;
+    const int rounds = rounds_text ? atoi(rounds_text) : 100;
     const char *name;
     size_t size;
     uint32_t seed = 1;
