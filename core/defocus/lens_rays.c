@@ -162,6 +162,38 @@ static void store(const wo_stack *stack, const wo_march_view *view, const wo_mar
     }
 }
 
+/* Rays between two looks whether to stop. */
+enum { PIECE = 512 };
+
+/* The whole pencil, piece by piece; false when stopped. */
+static bool trace(const wo_context *context, wo_march_function *kernel, const wo_march_view *view,
+                  int32_t x, int32_t y, int run_index, const wo_pencil *pencil,
+                  wo_march_sums *sums)
+{
+    *sums = (wo_march_sums){0};
+    for (int first = 0; first < pencil->count; first += PIECE) {
+        wo_march_sums part;
+        const int left = pencil->count - first;
+        const wo_pencil piece = {left < PIECE ? left : PIECE,
+                                 pencil->ax + first,
+                                 pencil->ay + first,
+                                 pencil->bx + first,
+                                 pencil->by + first,
+                                 pencil->weight ? pencil->weight + first : NULL};
+        if (wo_aborted(context))
+            return false;
+        kernel(view, x, y, run_index, &piece, &part);
+        for (int i = 0; i < WO_LANES; i++) {
+            for (int k = 0; k < 4; k++)
+                sums->c[k][i] += part.c[k][i];
+            sums->weight[i] += part.weight[i];
+            sums->guessed[i] += part.guessed[i];
+        }
+        sums->steps += part.steps;
+    }
+    return true;
+}
+
 bool wo_lens_rays_tile(const wo_lens_rays *rays, const wo_context *context, int32_t tx, int32_t ty,
                        wo_tile_pixels *pixels, wo_report *report)
 {
@@ -178,8 +210,6 @@ bool wo_lens_rays_tile(const wo_lens_rays *rays, const wo_context *context, int3
         tile->class == WO_TILE_SINGLE ? rays->kernels->single : rays->kernels->march;
     for (int32_t row = 0; row < WO_TILE_HEIGHT; row++) {
         const int32_t y = rect.y1 + row;
-        if (wo_aborted(context))
-            return false;
         for (int run_index = 0; run_index < WO_PHASES; run_index++) {
             wo_pencil pencil = {1, zero, zero, zero, zero, NULL};
             if (tile->class != WO_TILE_SHARP) {
@@ -189,7 +219,9 @@ bool wo_lens_rays_tile(const wo_lens_rays *rays, const wo_context *context, int3
                                    wo_hash(set) % rays->lens->sets, &pencil);
             }
             wo_march_sums sums;
-            kernel(&view, rect.x1 - stack->area.x1, y - stack->area.y1, run_index, &pencil, &sums);
+            if (!trace(context, kernel, &view, rect.x1 - stack->area.x1, y - stack->area.y1,
+                       run_index, &pencil, &sums))
+                return false;
             store(stack, &view, &sums, rect, row, run_index, pixels);
             report->steps += sums.steps;
             report->rays += (int64_t)pencil.count * WO_LANES;
