@@ -15,7 +15,9 @@ static void *take(const wo_context *context, size_t bytes)
     return bytes <= SIZE_MAX - pad ? aligned_alloc(WO_ALIGNMENT, bytes + pad) : NULL;
 }
 
-void *wo_new(const wo_context *context, wo_error *error, size_t count, size_t size)
+/* Memory as it comes; *total is its size. */
+static void *obtain(const wo_context *context, wo_error *error, size_t count, size_t size,
+                    size_t *total)
 {
     if (count == 0 || size == 0) {
         wo_fail(error, WO_ERR_ARGUMENT, "an array of %zu elements of %zu bytes was asked for",
@@ -44,7 +46,41 @@ void *wo_new(const wo_context *context, wo_error *error, size_t count, size_t si
                 WO_ALIGNMENT);
         return NULL;
     }
-    return memset(memory, 0, bytes);
+    *total = bytes;
+    return memory;
+}
+
+void *wo_new(const wo_context *context, wo_error *error, size_t count, size_t size)
+{
+    size_t bytes;
+    void *memory = obtain(context, error, count, size, &bytes);
+    return memory ? memset(memory, 0, bytes) : NULL;
+}
+
+enum { PIECE = 1 << 20 };
+
+typedef struct clear_job {
+    char *memory;
+    size_t bytes;
+} clear_job;
+
+static void clear_piece(void *user, size_t index, unsigned worker)
+{
+    (void)worker;
+    const clear_job *job = user;
+    const size_t left = job->bytes - index * PIECE;
+    memset(job->memory + index * PIECE, 0, left < PIECE ? left : PIECE);
+}
+
+void *wo_new_large(const wo_context *context, wo_error *error, size_t count, size_t size)
+{
+    size_t bytes;
+    void *memory = obtain(context, error, count, size, &bytes);
+    if (!memory)
+        return NULL;
+    clear_job job = {memory, bytes};
+    wo_run(context, clear_piece, &job, (bytes + PIECE - 1) / PIECE);
+    return memory;
 }
 
 void wo_delete(const wo_context *context, void *memory)

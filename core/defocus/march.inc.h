@@ -167,6 +167,7 @@ typedef struct stretch {
     int sheet[WO_SHEETS_MAX];
     int from[WO_SHEETS_MAX], to[WO_SHEETS_MAX];
     int first, last;
+    int next; /* no sheet can be met between the end of this part and this step */
 } stretch;
 
 WO_SIMD way way_of(const wo_march_view *view, const wo_pencil *pencil, int n)
@@ -219,7 +220,12 @@ WO_SIMD void look_ahead(const wo_march_view *view, int32_t x, int32_t y, int run
     out->count = 0;
     out->first = INT_MAX;
     out->last = INT_MIN;
+    out->next = INT_MAX;
     for (int s = 0; s < view->sheets; s++) {
+        if (last < w->to[s]) {
+            const int next = w->from[s] > last ? w->from[s] : last + 1;
+            out->next = next < out->next ? next : out->next;
+        }
         if (first > w->to[s] || last < w->from[s])
             continue;
         const wo_bounds b = view->spans[s][cell];
@@ -266,9 +272,10 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
         int known[WO_SHEETS_MAX]; /* the step that before belongs to */
         for (int s = 0; s < view->sheets; s++)
             known[s] = INT_MIN;
-        for (int begin = w.first; begin <= w.last && m_any(alive); begin += WO_CELL) {
+        stretch part = {.next = w.first};
+        while (part.next <= w.last && m_any(alive)) {
+            const int begin = part.next;
             const int end = begin + WO_CELL - 1 < w.last ? begin + WO_CELL - 1 : w.last;
-            stretch part;
             look_ahead(view, x, y, run_index, &w, begin, end, &part);
             for (int a = 0; a < part.count; a++) {
                 const int s = part.sheet[a];

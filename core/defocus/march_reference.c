@@ -119,9 +119,18 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
         double sum[4] = {0};
         double weight = 0;
         double guessed = 0;
-        for (int n = 0; n < pencil->count; n++)
-            trace(view, x + run_index + WO_PHASES * lane, y, pencil, n, sum, &weight, &guessed,
-                  &sums->steps);
+        for (int n = 0; n < pencil->count; n++) {
+            double ray[4] = {0};
+            double ray_weight = 0;
+            double ray_guessed = 0;
+            const double w = pencil->weight ? (double)pencil->weight[n] : 1;
+            trace(view, x + run_index + WO_PHASES * lane, y, pencil, n, ray, &ray_weight,
+                  &ray_guessed, &sums->steps);
+            for (int k = 0; k < 4; k++)
+                sum[k] += w * ray[k];
+            weight += w * ray_weight;
+            guessed += w * ray_guessed;
+        }
         for (int k = 0; k < 4; k++)
             sums->c[k][lane] = (float)sum[k];
         sums->weight[lane] = (float)weight;

@@ -55,7 +55,7 @@ WO_NODISCARD wo_status wo_sheet_load(const wo_context *context, const wo_sheet_s
                                      wo_error *error);
 
 /* Colour of one pixel: premultiplied, finite, coverage 0..1; outside the bounds the nearest pixel.
-   Returns how many samples were not finite. */
+   Returns how many samples were not finite, or cut to what sums can hold (1e30). */
 int wo_read_colour(const wo_image *image, wo_alpha alpha, int32_t x, int32_t y, float c[4]);
 
 /* px that wo_sheet_load looks beyond a pixel. */

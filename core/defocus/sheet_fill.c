@@ -178,7 +178,7 @@ wo_status wo_sheet_fill_hidden(const wo_context *context, const wo_sheet *sheets
     const size_t n = (size_t)wo_rect_width(hidden->area) * (size_t)wo_rect_height(hidden->area);
     wo_status status = WO_ERR_NOMEM;
     levels = levels > LEVELS_MAX ? LEVELS_MAX : levels;
-    if (!(job.far_v = wo_new(context, error, n, sizeof *job.far_v)))
+    if (!(job.far_v = wo_new_large(context, error, n, sizeof *job.far_v)))
         goto done;
     if (!(job.far_sheet = wo_new(context, error, n, sizeof *job.far_sheet)))
         goto done;
@@ -186,7 +186,7 @@ wo_status wo_sheet_fill_hidden(const wo_context *context, const wo_sheet *sheets
         level *l = &pyramid[k];
         l->cells = k == 0 ? hidden->area : halved(pyramid[k - 1].cells);
         const size_t cells = (size_t)wo_rect_width(l->cells) * (size_t)wo_rect_height(l->cells);
-        if (!(l->sum = wo_new(context, error, cells, sizeof *l->sum)))
+        if (!(l->sum = wo_new_large(context, error, cells, sizeof *l->sum)))
             goto done;
     }
     const size_t h = (size_t)wo_rect_height(hidden->area);

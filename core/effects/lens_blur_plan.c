@@ -23,13 +23,20 @@ static void destroy_sheets(const wo_context *context, wo_sheet sheets[SHEETS])
         wo_sheet_destroy(context, &sheets[i]);
 }
 
+static void empty_row(void *user, size_t index, unsigned worker)
+{
+    (void)worker;
+    const wo_sheet *sheet = user;
+    const size_t w = (size_t)wo_rect_width(sheet->area);
+    for (size_t at = index * w; at < (index + 1) * w; at++)
+        sheet->v[at] = NAN;
+}
+
 static wo_status empty_sheet(const wo_context *context, wo_rect area, wo_sheet *sheet,
                              wo_error *error)
 {
     WO_TRY(wo_sheet_create(context, area, sheet, error));
-    const size_t n = (size_t)wo_rect_width(area) * (size_t)wo_rect_height(area);
-    for (size_t i = 0; i < n; i++)
-        sheet->v[i] = NAN;
+    wo_run(context, empty_row, sheet, (size_t)wo_rect_height(area));
     return WO_OK;
 }
 

@@ -56,7 +56,11 @@ int wo_cpu_detect(int mask);
    *error on failure; count or size 0 and overflow are failures. Any thread. */
 void *wo_new(const wo_context *context, wo_error *error, size_t count, size_t size) WO_NODISCARD;
 
-/* Gives back what wo_new gave; NULL is legal. Any thread. */
+/* The same for large arrays: all workers clear it. Not from inside a wo_run. */
+void *wo_new_large(const wo_context *context, wo_error *error, size_t count,
+                   size_t size) WO_NODISCARD;
+
+/* Gives back what these gave; NULL is legal. Any thread. */
 void wo_delete(const wo_context *context, void *memory);
 
 /* Runs func over 0..count-1 with the context's runner, or serially when it has none. */

@@ -188,20 +188,26 @@ static choice pick_in_part(const wo_io_part *part, const char *words)
     return found;
 }
 
+static const char *name_of(const wo_io_part *part)
+{
+    return part->name ? part->name : "";
+}
+
 /* The part of this name, or of this number when it has none. */
 static const wo_io_part *find_part(const wo_io_file *file, const char *name, size_t length)
 {
-    for (size_t i = 0; i < file->part_count; i++)
-        if (strlen(file->parts[i].name) == length && !strncmp(file->parts[i].name, name, length))
-            return &file->parts[i];
-    for (size_t i = 0; i < file->part_count; i++)
-        if (strlen(file->parts[i].name) == length &&
-            !strncasecmp(file->parts[i].name, name, length))
-            return &file->parts[i];
-    if (length < 1 || length > 6 || strspn(name, "0123456789") != length)
+    for (int any_case = 0; any_case < 2; any_case++)
+        for (size_t i = 0; i < file->part_count; i++) {
+            const char *const have = name_of(&file->parts[i]);
+            if (strlen(have) == length &&
+                !(any_case ? strncasecmp(have, name, length) : strncmp(have, name, length)))
+                return &file->parts[i];
+        }
+    if (length < 1 || length > 6 || strspn(name, "0123456789") < length)
         return NULL;
     const size_t number = (size_t)strtoul(name, NULL, 10);
-    return number < file->part_count && !file->parts[number].name[0] ? &file->parts[number] : NULL;
+    return number < file->part_count && !*name_of(&file->parts[number]) ? &file->parts[number]
+                                                                        : NULL;
 }
 
 static choice pick(const wo_io_file *file, const char *words)
@@ -238,8 +244,9 @@ static void list_contents(const wo_io_file *file, char *buffer, size_t size)
         const wo_io_part *const part = &file->parts[i];
         for (int c = -1; c < part->channels; c++) {
             int length;
-            if (c < 0 && part->name[0])
-                length = snprintf(buffer + used, size - used, "%s%s:", i ? "; " : "", part->name);
+            if (c < 0 && *name_of(part))
+                length =
+                    snprintf(buffer + used, size - used, "%s%s:", i ? "; " : "", name_of(part));
             else if (c < 0)
                 length = snprintf(buffer + used, size - used, "%s", i ? ";" : "");
             else

@@ -45,8 +45,8 @@ int wo_failure(const wo_error *error)
     return WO_EXIT_FAILURE;
 }
 
-/* When the first interrupt came, in milliseconds; 0 = there was none. Lock-free, so a signal handler
-   may use it. */
+/* When the first interrupt came, in milliseconds; 0 = there was none. Lock-free, so a signal
+   handler may use it. */
 static atomic_llong interrupted_at;
 
 static long long now_ms(void)

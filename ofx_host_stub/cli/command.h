@@ -41,8 +41,8 @@ int wo_usage_fault(const char *command, const char *format, ...) WO_PRINTF(2, 3)
    interrupt. */
 int wo_failure(const wo_error *error);
 
-/* From the first call on, SIGINT and SIGTERM set a flag instead of ending the program; another one a
-   moment later ends it at once. Host thread only. */
+/* From the first call on, SIGINT and SIGTERM set a flag instead of ending the program; another one
+   a moment later ends it at once. Host thread only. */
 void wo_interrupt_catch(void);
 
 /* True after an interrupt. user is ignored, so that it fits every abort callback. Any thread. */

@@ -31,15 +31,17 @@ if [ ! -s "$work/sources" ]; then
     echo "format.sh: no source files below $2" >&2
     exit 2
 fi
-failures=0
-while IFS= read -r file; do
-    if ! "$format" --style=file "$file" >"$work/formatted"; then
-        echo "$file: $format failed"
-        failures=$((failures + 1))
-    elif ! cmp -s "$file" "$work/formatted"; then
-        echo "$file: $(diff "$file" "$work/formatted" | grep -c '^<') lines differ"
-        failures=$((failures + 1))
-    fi
-done <"$work/sources"
+# One line for each place; the lines of the source follow, which are not wanted.
+xargs "$format" --style=file --dry-run <"$work/sources" >"$work/said" 2>&1
+code=$?
+sed -n "s/^\(.*\):[0-9]*:[0-9]*: warning: code should be clang-formatted.*/\1/p" "$work/said" |
+    sort | uniq -c | awk '{ print $2 ": " $1 " places differ" }' >"$work/faults"
+cat "$work/faults"
+if [ "$code" -ne 0 ]; then
+    cat "$work/said"
+    echo "format.sh: $format failed"
+    exit 1
+fi
+failures=$(wc -l <"$work/faults")
 echo "$(wc -l <"$work/sources") files, $failures not formatted"
 [ "$failures" -eq 0 ]

@@ -37,8 +37,8 @@ BEGIN {
     allowed["footage"] = "api bridge footage standard system"
     allowed["tests"] = "api ofx core plugins host bridge footage cli tests standard system test"
     root_count = split("include/ core/ ofx_host_stub/ include/ofx/ plugins/ ofx_host_stub/host/ " \
-                       "ofx_host_stub/bridge/ ofx_host_stub/cli/ footage/ tests/contract/", roots,
-                       " ")
+                       "ofx_host_stub/bridge/ ofx_host_stub/cli/ footage/",
+                       roots, " ")
 }
 
 function fault(text)
@@ -91,7 +91,9 @@ function resolve(name,    own, i)
     for (i = 1; i <= root_count; i++)
         if (exists(simple(roots[i] name)))
             return simple(roots[i] name)
-    return exists(simple(name)) ? simple(name) : ""
+    if (exists(simple(name)))
+        return simple(name)
+    return from == "tests" && name in test_header ? test_header[name] : ""
 }
 
 function family(name)
@@ -240,6 +242,11 @@ function families_of(path, seen, found,    list, count, i)
 
 NR == FNR {
     known[$1] = 1
+    if ($1 ~ /^tests\/.*\.h$/) {
+        name = $1
+        sub(/.*\//, "", name)
+        test_header[name] = $1
+    }
     next
 }
 

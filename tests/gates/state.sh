@@ -29,7 +29,9 @@ for archive in "$@"; do
     # ADDRESS FLAGS SECTION SIZE NAME; the flags may hold blanks, and O marks a variable.
     awk -v archive="$archive" '
         /file format/ { member = $1; sub(/:$/, "", member) }
-        / O / && / (\.data|\.bss|\.tdata|\.tbss|\*COM\*)(\.[^\t ]*)?\t/ && !/ \.data\.rel\.ro/ {
+        / d / { next }
+        (/ O / || / \.t(bss|data)/) &&
+            / (\.data|\.bss|\.tdata|\.tbss|\*COM\*)(\.[^\t ]*)?\t/ && !/ \.data\.rel\.ro/ {
             printf "%s: %s: variable %s\n", archive, member, $NF
             found = 1
         }
