@@ -129,15 +129,22 @@ static void take_tile(void *user, size_t index, unsigned worker)
     }
 }
 
-/* Bright pixels of a tile of out->tiles and the eight around it. */
-static size_t crowd(const take_job *job, int32_t tx, int32_t ty)
+/* True when so many pixels of a tile of out->tiles and the eight around it are bright, of those that
+   there are, that they are an area of light. */
+static bool crowded(const take_job *job, int32_t tx, int32_t ty)
 {
-    size_t sum = 0;
+    size_t bright = 0;
+    size_t pixels = 0;
     const int32_t columns = wo_rect_width(job->tiles);
-    for (int32_t y = ty - 1; y <= ty + 1; y++)
-        for (int32_t x = tx - 1; x <= tx + 1; x++)
-            sum += job->counts[(size_t)((y - job->tiles.y1) * columns + x - job->tiles.x1)];
-    return sum;
+    for (int32_t y = ty - 1; y <= ty + 1; y++) {
+        for (int32_t x = tx - 1; x <= tx + 1; x++) {
+            const size_t index = (size_t)((y - job->tiles.y1) * columns + x - job->tiles.x1);
+            const wo_rect r = wo_rect_intersect(tile_of(job->tiles, index), job->sheets[0].area);
+            bright += job->counts[index];
+            pixels += (size_t)wo_rect_width(r) * (size_t)wo_rect_height(r);
+        }
+    }
+    return (double)bright > WO_HIGHLIGHT_CROWD * (double)pixels;
 }
 
 wo_status wo_highlights_take(const wo_context *context, wo_sheet *sheets, size_t count,
@@ -167,7 +174,7 @@ wo_status wo_highlights_take(const wo_context *context, wo_sheet *sheets, size_t
             const size_t own = job.counts[(size_t)((ty - job.tiles.y1) * wo_rect_width(job.tiles) +
                                                    tx - job.tiles.x1)];
             highlights->first[i + 1] = highlights->first[i] +
-                                       (crowd(&job, tx, ty) <= WO_HIGHLIGHT_CROWD ? own : 0);
+                                       (crowded(&job, tx, ty) ? 0 : own);
         }
     }
     highlights->count = highlights->first[taken];

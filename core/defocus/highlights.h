@@ -12,7 +12,7 @@
    noise, exact energy. (Sampling the lights in place of the lens, as path tracers do.) */
 #define WO_HIGHLIGHT_LEVEL  4.0f /* scene-linear; 1 is diffuse white */
 #define WO_HIGHLIGHT_RADIUS 2.0  /* px; smaller blur is left to the rays */
-#define WO_HIGHLIGHT_CROWD  3072 /* more bright pixels than this in 3 x 3 tiles are an area, not points */
+#define WO_HIGHLIGHT_CROWD  (2.0 / 3) /* of the pixels of 3 x 3 tiles: more are an area, not points */
 
 typedef struct wo_highlight {
     int32_t x, y;

@@ -117,7 +117,7 @@ WO_SIMD void meet(rays *r, vm mask, const vf c[4], int is_guess)
     r->light = v_sub(r->light, stopped);
 }
 
-/* Several sheets at one step: nearest first, lane by lane. */
+/* Several sheets at one step: nearest first, lane by lane; the first sheet first where they meet. */
 static void meet_in_order(rays *r, hit *hits, int count, const bool *guessed)
 {
     vf is_guess[WO_SHEETS_MAX];
@@ -129,18 +129,21 @@ static void meet_in_order(rays *r, hit *hits, int count, const bool *guessed)
             hits[i].c[k] = v_mask(hits[i].mask, hits[i].c[k]);
     }
     for (int i = 0; i < count; i++) {
-        for (int j = i + 1; j < count; j++) {
-            const vm swap = v_less(hits[i].v, hits[j].v);
-            const vf v = hits[i].v;
-            const vf g = is_guess[i];
-            hits[i].v = v_select(swap, hits[j].v, v);
-            hits[j].v = v_select(swap, v, hits[j].v);
-            is_guess[i] = v_select(swap, is_guess[j], g);
+        /* The nearest of the rest moves up past its neighbours: equals keep the order of sheets. */
+        for (int j = count - 1; j > i; j--) {
+            hit *const p = &hits[j - 1];
+            hit *const q = &hits[j];
+            const vm swap = v_less(p->v, q->v);
+            const vf v = p->v;
+            const vf g = is_guess[j - 1];
+            p->v = v_select(swap, q->v, v);
+            q->v = v_select(swap, v, q->v);
+            is_guess[j - 1] = v_select(swap, is_guess[j], g);
             is_guess[j] = v_select(swap, g, is_guess[j]);
             for (int k = 0; k < 4; k++) {
-                const vf c = hits[i].c[k];
-                hits[i].c[k] = v_select(swap, hits[j].c[k], c);
-                hits[j].c[k] = v_select(swap, c, hits[j].c[k]);
+                const vf c = p->c[k];
+                p->c[k] = v_select(swap, q->c[k], c);
+                q->c[k] = v_select(swap, c, q->c[k]);
             }
         }
         const vf stopped = v_mul(r->light, hits[i].c[3]);
@@ -249,129 +252,196 @@ WO_SIMD void look_ahead(const wo_march_view *view, int32_t x, int32_t y, int run
     }
 }
 
+/* Where a sheet stands at one step. */
+typedef struct meeting {
+    vm mask; /* lanes that meet it */
+    vm crossed; /* of these, passed from before to behind it since the last step */
+    vf e, e0; /* steps from here to the surface, now and one step before */
+    vf v;
+} meeting;
+
+WO_SIMD meeting meet_sheet(const float *plane, ptrdiff_t at, vf fall, vf origin, vf before,
+                           vm alive)
+{
+    meeting m;
+    m.v = v_load(plane + at);
+    m.e = v_fma(fall, m.v, origin);
+    m.e0 = before;
+    m.crossed = m_and(m_and(v_less(m.e, v_set(-0.5f)), v_less(v_set(0.5f), before)),
+                      v_less_equal(v_sub(before, m.e), v_set(1 + WO_CONNECT_PX)));
+    m.mask = m_and(m_or(v_less_equal(v_abs(m.e), v_set(0.5f)), m.crossed), alive);
+    return m;
+}
+
+/* Colour at a meeting; at is the place of the pixels at step i (dx, dy from the ray's own). */
+WO_SIMD void colour_of(const wo_march_view *view, int s, int32_t x, int32_t y, int run_index,
+                       const way *w, int i, int j, ptrdiff_t at, const meeting *m, vf c[4])
+{
+    if (i > WO_SMOOTH_PX || i < -WO_SMOOTH_PX) {
+        for (int k = 0; k < 4; k++)
+            c[k] = v_load(view->c[s][k] + at);
+        return;
+    }
+    /* Where along the axis the surface is met, beside this pixel's centre. */
+    const vf cross_t = v_sub(v_div(m->e0, v_sub(m->e0, m->e)), v_set(1));
+    const vf t =
+        v_mask(m->mask, v_mul(v_set((float)w->dir), v_select(m->crossed, cross_t, m->e)));
+    const vf across =
+        v_fma(v_set(w->l.slope), t, v_set(w->l.n0 + w->l.slope * (float)i - (float)j));
+    if (w->l.upright)
+        sample_smooth(view, s, x, y, run_index, j, i, across, t, c);
+    else
+        sample_smooth(view, s, x, y, run_index, i, j, t, across, c);
+}
+
+/* What a vector's rays know on their way. */
+typedef struct travel {
+    rays r;
+    vm alive;
+    vf before[WO_SHEETS_MAX]; /* e of the step before: above 0.5 = in front */
+    int known[WO_SHEETS_MAX]; /* the step that before belongs to */
+    int64_t steps;
+} travel;
+
+/* A stretch with one sheet in it: the usual case. */
+WO_SIMD void travel_one(const wo_march_view *view, int32_t x, int32_t y, int run_index,
+                        const way *w, vf fall, const stretch *part, travel *t)
+{
+    const int s = part->sheet[0];
+    const float *const plane = view->v[s];
+    vf before = t->before[s];
+    int step = part->first;
+    for (; step <= part->last; step++) {
+        const int i = w->dir * step;
+        const int j = across_at(w, step);
+        const ptrdiff_t at = w->l.upright ? place(view, x, y, run_index, j, i)
+                                          : place(view, x, y, run_index, i, j);
+        const meeting m =
+            meet_sheet(plane, at, fall, v_set(w->base - (float)step), before, t->alive);
+        before = m.e;
+        if (!m_any(m.mask))
+            continue;
+        vf c[4];
+        colour_of(view, s, x, y, run_index, w, i, j, at, &m, c);
+        meet(&t->r, m.mask, c, view->guessed[s]);
+        t->alive = v_less(v_set(WO_LIGHT_MIN), t->r.light);
+        if (!m_any(t->alive))
+            break;
+    }
+    t->before[s] = before;
+    t->known[s] = part->last;
+    t->steps += step - part->first;
+}
+
+/* A stretch with several sheets. */
+WO_SIMD void travel_many(const wo_march_view *view, int32_t x, int32_t y, int run_index,
+                         const way *w, vf fall, const stretch *part, travel *t)
+{
+    for (int step = part->first; step <= part->last; step++) {
+        const int i = w->dir * step;
+        const int j = across_at(w, step);
+        const ptrdiff_t at = w->l.upright ? place(view, x, y, run_index, j, i)
+                                          : place(view, x, y, run_index, i, j);
+        const vf origin = v_set(w->base - (float)step);
+        hit hits[WO_SHEETS_MAX];
+        int count = 0;
+        for (int a = 0; a < part->count; a++) {
+            if (step < part->from[a] || step > part->to[a])
+                continue;
+            const int s = part->sheet[a];
+            const meeting m =
+                meet_sheet(view->v[s], at, fall, origin, t->before[s], t->alive);
+            t->before[s] = m.e;
+            t->known[s] = step;
+            t->steps++;
+            if (!m_any(m.mask))
+                continue;
+            hit *h = &hits[count++];
+            h->mask = m.mask;
+            h->v = m.v;
+            h->sheet = s;
+            colour_of(view, s, x, y, run_index, w, i, j, at, &m, h->c);
+        }
+        if (count == 0)
+            continue;
+        if (count == 1)
+            meet(&t->r, hits[0].mask, hits[0].c, view->guessed[hits[0].sheet]);
+        else
+            meet_in_order(&t->r, hits, count, view->guessed);
+        t->alive = v_less(v_set(WO_LIGHT_MIN), t->r.light);
+        if (!m_any(t->alive))
+            return;
+    }
+}
+
+/* The step before a sheet comes into view again, if it was out of it. */
+WO_SIMD void catch_up(const wo_march_view *view, int32_t x, int32_t y, int run_index,
+                      const way *w, vf fall, const stretch *part, travel *t)
+{
+    for (int a = 0; a < part->count; a++) {
+        const int s = part->sheet[a];
+        const int step = part->from[a] - 1;
+        if (t->known[s] == step)
+            continue;
+        t->known[s] = step;
+        t->before[s] = v_set(NAN);
+        if (step < w->from[s])
+            continue;
+        const ptrdiff_t at = way_place(view, x, y, run_index, w, step);
+        t->before[s] = v_fma(fall, v_load(view->v[s] + at), v_set(w->base - (float)step));
+        t->steps++;
+    }
+}
+
 static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index,
                   const wo_pencil *pencil, wo_march_sums *sums)
 {
     const vf half = v_set(0.5f);
-    const vf minus_half = v_set(-0.5f);
     const vf one = v_set(1);
-    const vf connect = v_set(1 + WO_CONNECT_PX);
-    const vf light_min = v_set(WO_LIGHT_MIN);
+    const vf zero = v_set(0);
     vf total[6];
     vf chunk[6];
     for (int k = 0; k < 6; k++)
-        total[k] = chunk[k] = v_set(0);
-    int64_t steps = 0;
+        total[k] = chunk[k] = zero;
+    travel t;
+    t.steps = 0;
 
     for (int n = 0; n < pencil->count; n++) {
         const way w = way_of(view, pencil, n);
         const vf fall = v_set(-w.fall);
-        rays r = {one, {v_set(0), v_set(0), v_set(0), v_set(0)}, v_set(0)};
-        vm alive = m_set(-1);
-        vf before[WO_SHEETS_MAX]; /* e of the step before: above 0.5 = in front */
-        int known[WO_SHEETS_MAX]; /* the step that before belongs to */
+        t.r = (rays){one, {zero, zero, zero, zero}, zero};
+        t.alive = m_set(-1);
         for (int s = 0; s < view->sheets; s++)
-            known[s] = INT_MIN;
+            t.known[s] = INT_MIN;
         stretch part = {.next = w.first};
-        while (part.next <= w.last && m_any(alive)) {
+        while (part.next <= w.last && m_any(t.alive)) {
             const int begin = part.next;
             const int end = begin + WO_CELL - 1 < w.last ? begin + WO_CELL - 1 : w.last;
             look_ahead(view, x, y, run_index, &w, begin, end, &part);
-            for (int a = 0; a < part.count; a++) {
-                const int s = part.sheet[a];
-                const int step = part.from[a] - 1;
-                if (known[s] == step)
-                    continue;
-                known[s] = step;
-                before[s] = v_set(NAN);
-                if (step < w.from[s])
-                    continue;
-                const ptrdiff_t at = way_place(view, x, y, run_index, &w, step);
-                before[s] =
-                    v_fma(fall, v_load(view->v[s] + at), v_set(w.base - (float)step));
-                steps++;
-            }
-            for (int step = part.first; step <= part.last; step++) {
-                const int i = w.dir * step;
-                const int j = across_at(&w, step);
-                const int dx = w.l.upright ? j : i;
-                const int dy = w.l.upright ? i : j;
-                const ptrdiff_t at = place(view, x, y, run_index, dx, dy);
-                const vf origin = v_set(w.base - (float)step);
-                const int smooth = i <= WO_SMOOTH_PX && i >= -WO_SMOOTH_PX;
-                hit hits[WO_SHEETS_MAX];
-                int count = 0;
-                for (int a = 0; a < part.count; a++) {
-                    if (step < part.from[a] || step > part.to[a])
-                        continue;
-                    const int s = part.sheet[a];
-                    const vf v = v_load(view->v[s] + at);
-                    const vf e = v_fma(fall, v, origin);
-                    const vf e0 = before[s];
-                    before[s] = e;
-                    known[s] = step;
-                    steps++;
-                    vm m = v_less_equal(v_abs(e), half);
-                    const vm crossed = m_and(m_and(v_less(e, minus_half), v_less(half, e0)),
-                                             v_less_equal(v_sub(e0, e), connect));
-                    m = m_and(m_or(m, crossed), alive);
-                    if (!m_any(m))
-                        continue;
-                    hit *h = &hits[count++];
-                    h->mask = m;
-                    h->v = v;
-                    h->sheet = s;
-                    if (!smooth) {
-                        for (int k = 0; k < 4; k++)
-                            h->c[k] = v_load(view->c[s][k] + at);
-                        continue;
-                    }
-                    /* Where along the axis the surface is met, beside this pixel's centre. */
-                    const vf cross_t = v_sub(v_div(e0, v_sub(e0, e)), one);
-                    const vf t = v_mask(
-                        m, v_mul(v_set((float)w.dir), v_select(crossed, cross_t, e)));
-                    const vf across = v_fma(v_set(w.l.slope), t,
-                                            v_set(w.l.n0 + w.l.slope * (float)i - (float)j));
-                    if (w.l.upright)
-                        sample_smooth(view, s, x, y, run_index, dx, dy, across, t, h->c);
-                    else
-                        sample_smooth(view, s, x, y, run_index, dx, dy, t, across, h->c);
-                }
-                if (count == 0)
-                    continue;
-                if (count == 1)
-                    meet(&r, hits[0].mask, hits[0].c, view->guessed[hits[0].sheet]);
-                else
-                    meet_in_order(&r, hits, count, view->guessed);
-                alive = v_less(light_min, r.light);
-                if (!m_any(alive))
-                    break;
-            }
+            catch_up(view, x, y, run_index, &w, fall, &part, &t);
+            if (part.count == 1)
+                travel_one(view, x, y, run_index, &w, fall, &part, &t);
+            else
+                travel_many(view, x, y, run_index, &w, fall, &part, &t);
         }
-        const vf left = r.light;
-        vm ends = m_except(m_set(-1), alive);
-        if (m_any(alive)) {
+        const vf left = t.r.light;
+        vm ends = m_except(m_set(-1), t.alive);
+        if (m_any(t.alive)) {
             const ptrdiff_t at = way_place(view, x, y, run_index, &w, w.last);
-            const vm lost = m_and(v_less(half, v_load(view->opaque + at)), alive);
+            const vm lost = m_and(v_less(half, v_load(view->opaque + at)), t.alive);
             ends = m_or(ends, lost);
-            r.guessed = v_add(r.guessed, v_mask(lost, left));
+            t.r.guessed = v_add(t.r.guessed, v_mask(lost, left));
         }
-        vf weight = v_select(ends, v_sub(one, left), one);
-        if (pencil->weight) {
-            const vf p = v_set(pencil->weight[n]);
-            for (int k = 0; k < 4; k++)
-                r.c[k] = v_mul(r.c[k], p);
-            weight = v_mul(weight, p);
-            r.guessed = v_mul(r.guessed, p);
-        }
+        const vf weight = v_select(ends, v_sub(one, left), one);
+        const vf scale = v_set(pencil->weight ? pencil->weight[n] : 1);
         for (int k = 0; k < 4; k++)
-            chunk[k] = v_add(chunk[k], r.c[k]);
-        chunk[4] = v_add(chunk[4], weight);
-        chunk[5] = v_add(chunk[5], r.guessed);
+            chunk[k] = v_fma(t.r.c[k], scale, chunk[k]);
+        chunk[4] = v_fma(weight, scale, chunk[4]);
+        chunk[5] = v_fma(t.r.guessed, scale, chunk[5]);
         if (n % CHUNK == CHUNK - 1 || n == pencil->count - 1) {
             for (int k = 0; k < 6; k++) {
                 total[k] = v_add(total[k], chunk[k]);
-                chunk[k] = v_set(0);
+                chunk[k] = zero;
             }
         }
     }
@@ -379,7 +449,7 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
         v_store(sums->c[k], total[k]);
     v_store(sums->weight, total[4]);
     v_store(sums->guessed, total[5]);
-    sums->steps = steps * WO_LANES;
+    sums->steps = t.steps * WO_LANES;
 }
 
 static void single(const wo_march_view *view, int32_t x, int32_t y, int run_index,

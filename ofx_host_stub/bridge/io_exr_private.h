@@ -14,8 +14,13 @@ typedef struct wo_exr_stream {
     int fd;
     int64_t size;       /* of a file being read */
     int system_error;   /* errno of the first failed call, 0 = none */
+    bool no_memory;     /* the library asked for some and got none */
     char words[128];    /* first complaint of the library */
 } wo_exr_stream;
+
+/* From begin to end the library's complaints in this thread go to the stream. */
+void wo_exr_begin(wo_exr_stream *stream);
+void wo_exr_end(void);
 
 /* Settings of a context that uses the stream. */
 exr_context_initializer_t wo_exr_settings(wo_exr_stream *stream);

@@ -362,6 +362,7 @@ wo_status wo_io_exr_read(const char *path, int fd, bool headers_only, wo_io_file
     stream.size = about.st_size;
 
     exr_context_t exr = NULL;
+    wo_exr_begin(&stream);
     const exr_context_initializer_t settings = wo_exr_settings(&stream);
     const exr_result_t result = exr_start_read(&exr, path, &settings);
     wo_status status = WO_OK;
@@ -370,5 +371,9 @@ wo_status wo_io_exr_read(const char *path, int fd, bool headers_only, wo_io_file
     else
         status = read_parts(&stream, exr, headers_only, file, error);
     exr_finish(&exr);
+    wo_exr_end();
+    /* short of memory the library leaves things out and goes on */
+    if (stream.no_memory)
+        status = wo_exr_failure(&stream, EXR_ERR_OUT_OF_MEMORY, error);
     return status;
 }

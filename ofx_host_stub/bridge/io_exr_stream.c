@@ -9,18 +9,26 @@
 #include <string.h>
 #include <unistd.h>
 
-static wo_exr_stream *stream_of(exr_const_context_t exr)
+/* Whose call runs in this thread. The library complains while it holds the lock of its context, so
+   the context cannot be asked for its user's data. */
+static _Thread_local wo_exr_stream *current;
+
+void wo_exr_begin(wo_exr_stream *stream)
 {
-    void *user = NULL;
-    return exr && exr_get_user_data(exr, &user) == EXR_ERR_SUCCESS ? user : NULL;
+    current = stream;
+}
+
+void wo_exr_end(void)
+{
+    current = NULL;
 }
 
 static void note_words(exr_const_context_t exr, exr_result_t result, const char *words)
 {
-    wo_exr_stream *const stream = stream_of(exr);
+    (void)exr;
     (void)result;
-    if (stream && !stream->words[0] && words)
-        snprintf(stream->words, sizeof stream->words, "%s", words);
+    if (current && !current->words[0] && words)
+        snprintf(current->words, sizeof current->words, "%s", words);
 }
 
 static int64_t read_bytes(exr_const_context_t exr, void *user, void *buffer, uint64_t bytes,
@@ -81,7 +89,10 @@ static int64_t file_size(exr_const_context_t exr, void *user)
 
 void *wo_exr_get(size_t bytes)
 {
-    return calloc(1, bytes ? bytes : 1);
+    void *const memory = calloc(1, bytes ? bytes : 1);
+    if (!memory && current)
+        current->no_memory = true;
+    return memory;
 }
 
 void *wo_exr_get_buffer(exr_transcoding_pipeline_buffer_id_t which, size_t bytes)
@@ -121,7 +132,7 @@ wo_status wo_exr_failure(const wo_exr_stream *stream, exr_result_t result, wo_er
         return wo_fail(error, WO_ERR_IO, "%s: %s", path, words);
     }
     wo_status status = WO_ERR_FORMAT;
-    if (result == EXR_ERR_OUT_OF_MEMORY)
+    if (stream->no_memory || result == EXR_ERR_OUT_OF_MEMORY)
         status = WO_ERR_NOMEM;
     else if (result == EXR_ERR_FEATURE_NOT_IMPLEMENTED)
         status = WO_ERR_UNSUPPORTED;

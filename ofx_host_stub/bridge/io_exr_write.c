@@ -223,15 +223,18 @@ wo_status wo_io_exr_write(const char *path, int fd, const wo_io_part *parts, siz
     WO_TRY(check_names(path, parts, part_count, error));
 
     exr_context_t exr = NULL;
+    wo_exr_begin(&stream);
     const exr_context_initializer_t settings = wo_exr_settings(&stream);
     exr_result_t result = exr_start_write(&exr, path, EXR_WRITE_FILE_DIRECTLY, &settings);
-    if (result != EXR_ERR_SUCCESS)
-        return wo_exr_failure(&stream, result, error);
-    const wo_status status = write_parts(&stream, exr, parts, part_count, depth, error);
-    result = exr_finish(&exr);
+    wo_status status = WO_OK;
+    if (result == EXR_ERR_SUCCESS) {
+        status = write_parts(&stream, exr, parts, part_count, depth, error);
+        result = exr_finish(&exr);
+        if (result == EXR_ERR_SUCCESS && stream.system_error)
+            result = EXR_ERR_WRITE_IO;
+    }
+    wo_exr_end();
     WO_TRY(status);
-    if (stream.system_error && result == EXR_ERR_SUCCESS)
-        result = EXR_ERR_WRITE_IO;
     WO_EXR_TRY(&stream, result);
     return WO_OK;
 }

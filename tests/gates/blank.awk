@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright the WideOpen authors
 #
-# Takes C and C++ sources apart. Prints "FILE<tab>LINE<tab>TEXT" for every line: with -v want=code the
-# code without comments and without the insides of strings and characters (an #include keeps its name),
-# with -v want=comments the text of the comments alone.
+# Takes C and C++ sources apart. Prints "FILE<tab>LINE<tab>TEXT" for every line: with -v want=code
+# the code without comments and without the insides of strings and characters (an #include keeps its
+# name), with -v want=comments the text of the comments alone.
 
 function literal(quote,    part)
 {

@@ -7,8 +7,8 @@
 # usage: bundles.sh exports|needed PLUGIN_DIR
 #   exports  the dynamic symbols of every *.ofx are the three functions of OpenFX and no other; no
 #            relocations in code, no executable stack
-#   needed   it needs the C library, the mathematics library and the loader, nothing else, and brings no
-#            search path. For builds without sanitizers: these add a library of their own.
+#   needed   it needs the C library, the mathematics library and the loader, nothing else, and has
+#            no search path. For builds without sanitizers: these add a library of their own.
 # Exit 0: yes. 1: no (each fault is printed). 2: wrong use, or there is no plugin.
 
 set -u
@@ -47,7 +47,8 @@ check_exports() {
     sed 's/ .*//' "$work/nm" | sort >"$work/exports"
     if ! cmp -s "$work/expected" "$work/exports"; then
         fault "$1: exports are not OfxGetNumberOfPlugins, OfxGetPlugin and OfxSetHost:"
-        diff "$work/expected" "$work/exports" | sed -n 's/^>/    one too many:/p; s/^</    missing:/p'
+        diff "$work/expected" "$work/exports" |
+            sed -n "s/^>/    one too many:/p; s/^</    missing:/p"
     fi
     if grep -q -E '\(TEXTREL\)|FLAGS.*TEXTREL' "$work/dynamic"; then
         fault "$1: relocations in code"

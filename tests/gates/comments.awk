@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright the WideOpen authors
 #
-# Reads what blank.awk makes of C sources with want=comments; prints the comments that look like code
-# which somebody left behind.
+# Reads what blank.awk makes of C sources with want=comments; prints the comments that look like
+# code which somebody left behind.
 
 BEGIN { FS = "\t" }
 
@@ -12,8 +12,8 @@ BEGIN { FS = "\t" }
     if ($1 ~ /\.(h|hh)$/ && text ~ /^       /)
         next
     gsub(/^[ \t*]+|[ \t*]+$/, "", text)
-    type = "^(const|static|extern|inline|struct|enum|union|unsigned|int|char|float|double|void|bool" \
-           "|size_t|ptrdiff_t|u?int[0-9]+_t|wo_[a-z_]+|Ofx[A-Za-z]+) [^.]*"
+    type = "^(const|static|extern|inline|struct|enum|union|unsigned|int|char|float|double|void" \
+           "|bool|size_t|ptrdiff_t|u?int[0-9]+_t|wo_[a-z_]+|Ofx[A-Za-z]+) [^.]*"
     if (text ~ /^[A-Za-z_][A-Za-z0-9_>.-]* ?\(.*\);$/ ||
         text ~ /^\*?[A-Za-z_][][A-Za-z0-9_>.-]* *([-+*\/|&^%]|<<|>>)?= [^;]*;$/ ||
         text ~ /^return( [^;]*)?;$/ || text ~ /^(break|continue);$/ || text ~ /^goto [a-z_]+;$/ ||

@@ -1,5 +1,5 @@
-# Gates: rules of the project that a machine can check. Each has a self-test beside it, which shows that
-# it finds what it looks for.
+# Gates: rules of the project that a machine can check. Each has a self-test beside it, which shows
+# that it finds what it looks for.
 set(gates ${CMAKE_CURRENT_LIST_DIR})
 
 function(wo_add_gate name)

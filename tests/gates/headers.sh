@@ -54,8 +54,10 @@ for header in $headers; do
     printf '#include "%s"\n#include "%s"\nextern int wo_alone;\n' "$PWD/$header" "$PWD/$header" \
         >"$work/alone.c"
     cp "$work/alone.c" "$work/alone.cc"
-    # $cc and $cxx are not quoted: each may be a command with arguments, such as "ccache gcc".
+    # Not quoted: each compiler may be a command with arguments, such as "ccache gcc".
+    # shellcheck disable=SC2086
     try "$header" c $cc -std=c11
+    # shellcheck disable=SC2086
     try "$header" cc $cxx -std=c++17
 done
 echo "$checked compilations of public headers, $failures failed"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright the WideOpen authors
 #
-# Reads text files and prints one line for every fault of form. In the environment LC_ALL=C: columns are
+# Reads text files and prints one line for every fault of form. To be run with LC_ALL=C: columns are
 # bytes. The words looked for are written so that they do not find themselves here.
 
 BEGIN {
@@ -81,11 +81,10 @@ FNR == 2 {
         fault("code in a comment")
     if (/(^|[^-A-Za-z0-9_.})\/])\/(home|work|root|Users)\/[A-Za-z0-9_]/)
         fault("a path of somebody's machine")
-    if (/(pypi[.]org|pythonhosted[.]org|crates[.]io|registry[.]npmjs|registry[.]yarnpkg|rubygems[.]org)/)
+    if (/(pypi[.]org|pythonhosted[.]org|crates[.]io|rubygems[.]org)/ ||
+        /(registry[.](npmjs|yarnpkg)|conda[.]anaconda|repo[.]anaconda|repo1?[.]maven)[.]/)
         fault("name of a package registry")
     if (/((deb|snapshot|ftp|security)[.]debian[.]org|archive[.]ubuntu[.]com|proxy[.]golang[.]org)/)
-        fault("name of a package registry")
-    if (/(conda[.]anaconda[.]org|repo[.]anaconda[.]com|repo1?[.]maven)/)
         fault("name of a package registry")
 }
 

@@ -40,7 +40,8 @@ sed 's|/.*||' "$work/all" | sort -u | while IFS= read -r entry; do
 done >"$work/faults"
 
 # Letters, digits, and no blanks: names that every tool takes.
-grep -v -E '^[A-Za-z0-9._/-]+$' "$work/all" | sed 's/$/: a name of other characters than A-Za-z0-9._-/' \
+grep -v -E '^[A-Za-z0-9._/-]+$' "$work/all" |
+    sed 's/$/: a name of other characters than A-Za-z0-9._-/' \
     >>"$work/faults"
 grep -E '^[A-Za-z0-9._/-]+$' "$work/all" |
     grep -v -i -E '\.(png|jpe?g|exr|tiff?|dpx|hdr|pfm|gif|webp)$' >"$work/texts"

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright the WideOpen authors
 #
-# Who includes whom. Reads the list of all files, then (as the second file) what blank.awk makes of the
-# sources with want=code; prints one line for every forbidden edge or name.
+# Who includes whom. Reads the list of all files, then (as the second file) what blank.awk makes of
+# the sources with want=code; prints one line for every forbidden edge or name.
 
 function words(text, set,    list, count, i)
 {
@@ -13,9 +13,9 @@ function words(text, set,    list, count, i)
 
 BEGIN {
     FS = "\t"
-    words("assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal " \
-          "stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn string tgmath " \
-          "time uchar wchar wctype", standard)
+    words("assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp " \
+          "signal stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn " \
+          "string tgmath time uchar wchar wctype", standard)
     words("dirent dlfcn elf fcntl fnmatch ftw glob langinfo libgen poll pthread sched semaphore " \
           "spawn strings termios threads unistd", system_header)
     words("immintrin x86intrin cpuid arm_neon arm_sve", vector)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright the WideOpen authors
 #
-# Does every #include point in the allowed direction, and do core and plugins keep off printing, exit,
-# threads and memory that is not the context's? The rules stand in include_direction.awk.
+# Does every #include point in the allowed direction, and do core and plugins keep off printing,
+# exit, threads and memory that is not the context's? The rules stand in include_direction.awk.
 #
 # usage: include_direction.sh ROOT
 # Exit 0: yes. 1: no (each fault is printed). 2: wrong use.

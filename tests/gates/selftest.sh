@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright the WideOpen authors
 #
-# Can the gates fail? Each is run on a small project without faults, which it must pass, and on copies
-# with one fault each, which it must find.
+# Can the gates fail? Each is run on a small project without faults, which it must pass, and on
+# copies with one fault each, which it must find.
+#
+# shellcheck disable=SC2317 # functions are called by name
 #
 # usage: selftest.sh include_direction | hygiene | headers CC CXX | format CLANG_FORMAT |
 #                    bundles CC | state CC | abi CC ROOT
@@ -114,8 +116,8 @@ fresh() {
     cp -R "$sound" "$tree"
 }
 
-# broken WORDS FILE LINE...: the gate in $gate must find the fault that these lines make at the end of
-# the file.
+# broken WORDS FILE LINE...: the gate in $gate must find the fault that these lines make at the end
+# of the file.
 broken() {
     words=$1 file=$2
     shift 2
@@ -172,14 +174,17 @@ test_include_direction() {
         '#include <OpenColorIO/OpenColorIO.h>'
     broken "one foreign library per file" ofx_host_stub/bridge/io_oiio.cc \
         '#include "io_exr_private.h"'
-    broken "one foreign library per file" ofx_host_stub/bridge/io_exr.c '#include <embree3/rtcore.h>'
+    broken "one foreign library per file" ofx_host_stub/bridge/io_exr.c \
+        '#include <embree3/rtcore.h>'
     broken "shows OpenCV" ofx_host_stub/bridge/io.h '#include <opencv2/core.hpp>'
     broken "OpenImageIO belong into bridge" ofx_host_stub/cli/main.c \
         '#include <OpenImageIO/imageio.h>'
-    broken "only the C headers of bridge" ofx_host_stub/cli/main.c '#include "bridge/io_exr_private.h"'
+    broken "only the C headers of bridge" ofx_host_stub/cli/main.c \
+        '#include "bridge/io_exr_private.h"'
     broken "only host/host.h" ofx_host_stub/cli/main.c '#include "host/internal.h"'
     broken "cli must not include core" ofx_host_stub/cli/main.c '#include "base/number.h"'
-    broken "cli must not include plugins" ofx_host_stub/cli/main.c '#include "../../plugins/plugin.c"'
+    broken "cli must not include plugins" ofx_host_stub/cli/main.c \
+        '#include "../../plugins/plugin.c"'
     broken "footage must not include host" footage/scene.c '#include "host/host.h"'
     broken "footage must not include core" footage/scene.c '#include "base/number.h"'
     broken "Embree belong into bridge" footage/scene.c '#include <embree4/rtcore.h>'
@@ -224,7 +229,8 @@ test_hygiene() {
     broken "somebody's machine" README.md 'In /wo''rk/here.'
     broken "package registry" README.md 'From py''pi.org.'
     broken "package registry" check '# deb.deb''ian.org'
-    broken "more than 650 lines" $c "$(seq 660 | sed 's/.*/int f&;/')"
+    broken "more than 650 lines" $c \
+        "$(awk 'BEGIN { while (i++ < 660) print "int f" i ";" }')"
 
     fresh
     edit 1d "$tree/$c"
@@ -245,7 +251,8 @@ test_hygiene() {
     must 1 "tests/a name: a name of other characters" "$gates/$gate.sh" "$tree"
     # Good prose is no code.
     fresh
-    printf '/* Reads f(x) twice; the second\n   time; from g (or h);\n   x = 3 then. */\n' >>"$tree/$c"
+    printf '/* Reads f(x) twice; the second\n   time; from g (or h);\n   x = 3 then. */\n' \
+        >>"$tree/$c"
     must 0 "0 faults" "$gates/$gate.sh" "$tree"
 }
 

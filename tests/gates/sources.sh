@@ -5,8 +5,8 @@
 #
 # Read by the gates with `.`; gives them the list of files.
 
-# source_files ROOT: the files of the project, one per line, relative to ROOT: what git knows and what
-# it does not ignore; outside a checkout everything but what a build leaves.
+# source_files ROOT: the files of the project, one per line, relative to ROOT: what git knows and
+# what it does not ignore; outside a checkout everything but what a build leaves.
 source_files() {
     (
         cd "$1" || exit 2

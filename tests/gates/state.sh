@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright the WideOpen authors
 #
-# Is the core free of state? No object of the archives may hold variables: tables that are const are all
-# right, with pointers in them, too. For builds without sanitizers: these add variables of their own.
+# Is the core free of state? No object of the archives may hold variables: tables that are const are
+# all right, with pointers in them, too. For builds without sanitizers: these add variables of their
+# own.
 #
 # usage: state.sh ARCHIVE...
 # Exit 0: yes. 1: no (each variable is printed). 2: wrong use.

@@ -6,3 +6,5 @@ foreach(name IN ITEMS image_io image_formats image_faults image_memory colour pi
 endforeach()
 target_link_options(test_image_memory PRIVATE
     -Wl,--wrap=malloc -Wl,--wrap=calloc -Wl,--wrap=realloc)
+set_tests_properties(unit.image_memory PROPERTIES
+    ENVIRONMENT "LSAN_OPTIONS=suppressions=${CMAKE_CURRENT_LIST_DIR}/../lsan.supp")

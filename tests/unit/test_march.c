@@ -29,6 +29,7 @@ static void random_sheet(wo_sheet *sheet, rng *r, double limit, bool opaque)
     const double slope_x = rng_unit(r) < 0.5 ? rng_range(r, -limit, limit) / 20 : 0;
     const double slope_y = rng_unit(r) < 0.5 ? rng_range(r, -limit, limit) / 20 : 0;
     const double step = rng_unit(r) < 0.4 ? rng_range(r, 0, limit) : 0;
+    const bool levels = rng_unit(r) < 0.3; /* only -limit, 0 and limit: sheets that meet */
     const double rough = rng_unit(r) < 0.3 ? rng_range(r, 0, limit) * 0.1 : 0;
     const double gaps = opaque || rng_unit(r) < 0.3 ? 0 : rng_range(r, 0, 0.9);
     const int32_t size = rng_int(r, 1, 9);
@@ -40,7 +41,8 @@ static void random_sheet(wo_sheet *sheet, rng *r, double limit, bool opaque)
         const double v = base + slope_x * (i % w - 80) + slope_y * ((double)(i / w) - 80) +
                          step * rng_range(&patch, -1, 1) + rough * rng_range(r, -1, 1);
         const bool gap = rng_unit(&patch) < gaps;
-        sheet->v[i] = gap ? NAN : (float)fmin(fmax(v, -limit), limit);
+        const double level = v < -limit / 2 ? -limit : v < limit / 2 ? 0 : limit;
+        sheet->v[i] = gap ? NAN : (float)(levels ? level : fmin(fmax(v, -limit), limit));
         const float a = gap ? 0 : partial ? (float)rng_range(r, 0, 0.95) : 1;
         for (int k = 0; k < 3; k++)
             sheet->c[i][k] = a * (float)rng_unit(r);
@@ -158,7 +160,7 @@ static tally compare(wo_march_function *kernel, double radius, uint64_t seed, in
         for (int run_index = 0; run_index < WO_PHASES; run_index++) {
             const int32_t row = rng_int(&r, 0, ROWS - 1);
             const wo_pencil pencil = pencil_of(&f, (unsigned)rng_int(&r, 0, 1000));
-            for (int n = 0; n < 24; n++) {
+            for (int n = 0; n < 48; n++) {
                 const wo_pencil ray = ray_of(&pencil, rng_int(&r, 0, RAYS - 1));
                 const wo_march_sums got = run(kernel, &f, row, run_index, &ray);
                 const wo_march_sums want = run(wo_march_reference.march, &f, row, run_index, &ray);
@@ -192,8 +194,9 @@ static bool has(const kernel_row *row)
 }
 
 /* A ray whose hit or miss is decided by rounding (a vergence within an ulp of the edge of a patch, a
-   ray midway between two pixels) may differ. */
-#define BORDERLINE 2e-4
+   ray midway between two pixels) may differ: 2 of 3.7 million on random scenes; 1 is allowed in each
+   comparison here. */
+#define BORDERLINE 3e-5
 
 static void rays_agree_with_the_twin(void **state)
 {
@@ -201,7 +204,7 @@ static void rays_agree_with_the_twin(void **state)
     const double radii[] = {0.3, 2, 9, REACH};
     for (size_t i = 0; i < WO_COUNT(kernels); i++) {
         for (size_t k = 0; k < WO_COUNT(radii) && has(&kernels[i]); k++) {
-            const tally t = compare(kernels[i].kernels->march, radii[k], k, 48);
+            const tally t = compare(kernels[i].kernels->march, radii[k], k, 24);
             print_message("           %s, %g px: %d of %d rays differ\n", kernels[i].name,
                           radii[k], (int)t.different, (int)t.rays);
             assert_at_most((double)t.different / (double)t.rays, BORDERLINE);
@@ -264,10 +267,10 @@ static void wrong_kernels_are_found(void **state)
     wo_march_function *const wrong[] = {half_the_connection, blind_to_loss, stops_early,
                                         rays_bent,           next_run,      never_guesses};
     for (size_t i = 0; i < WO_COUNT(wrong); i++) {
-        const tally t = compare(wrong[i], 9, 2, 48);
-        if (!((double)t.different > 5 * BORDERLINE * (double)t.rays))
+        const tally t = compare(wrong[i], 9, 2, 16);
+        if (!((double)t.different > 100 * BORDERLINE * (double)t.rays))
             print_error("kernel %zu: %d of %d\n", i, (int)t.different, (int)t.rays);
-        assert_true((double)t.different > 5 * BORDERLINE * (double)t.rays);
+        assert_true((double)t.different > 100 * BORDERLINE * (double)t.rays);
     }
 }
 
@@ -379,7 +382,7 @@ static void single_depths(void **state)
                     assert_int_equal(got.steps, WO_LANES);
                 }
             }
-            assert_at_most((double)t.different / (double)t.rays, 1e-3);
+            assert_at_most((double)t.different / (double)t.rays, 2e-4);
             field_free(&f);
         }
     }

@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "near.h"
+#include "scenes.h"
+
+#include <string.h>
+
+static const wo_rect frame = {-21, 9, 190, 140};
+
+static void scene_make(scene *s, int kind)
+{
+    scene_init(s, frame);
+    scene_px_per_dioptre(s, kind % 2 ? 14 : 45);
+    s->params.samples = 12;
+    s->params.blades = kind % 2 ? 6 : 0;
+    s->params.seed = kind;
+    if (kind < 2)
+        scene_fill_busy(s, (uint64_t)kind);
+    else
+        scene_fill_layers(s, (uint64_t)kind);
+    /* An area of light beside single lights: many of its tiles are crowded, some are not. */
+    for (int32_t y = 20; y < 100 && kind == 1; y++)
+        for (int32_t x = 30; x < 150 - y / 2; x++)
+            wo_image_at(&s->clip[WO_CLIP_SOURCE], x, y)[y & 1] = 25;
+    if (kind != 3)
+        return;
+    wo_image *const mask = scene_clip(s, WO_CLIP_MASK, 1);
+    for (int32_t y = frame.y1; y < frame.y2; y++)
+        for (int32_t x = frame.x1; x < frame.x2; x++)
+            *wo_image_at(mask, x, y) = fminf(fmaxf(0.02f * (float)(x - 40), 0), 1);
+}
+
+/* A view of the part of a picture that lies in r. */
+static wo_image part_of(const wo_image *picture, wo_rect r)
+{
+    wo_image part = *picture;
+    r = wo_rect_intersect(r, picture->bounds);
+    if (!picture->data || wo_rect_empty(r))
+        return (wo_image){0};
+    part.data = wo_image_at(picture, r.x1, r.y1);
+    part.bounds = r;
+    return part;
+}
+
+static void tiles_are_the_whole(void **state)
+{
+    (void)state;
+    const wo_context context = WO_CONTEXT_INIT;
+    rng r = {7};
+    for (int kind = 0; kind < 4; kind++) {
+        scene s;
+        scene_make(&s, kind);
+        wo_image whole = scene_render(&s, NULL);
+        for (int n = 0; n < 12; n++) {
+            wo_rect window = {rng_int(&r, frame.x1, frame.x2 - 1),
+                              rng_int(&r, frame.y1, frame.y2 - 1), 0, 0};
+            window.x2 = rng_int(&r, window.x1 + 1, n % 3 ? window.x1 + 50 : frame.x2 + 20);
+            window.y2 = rng_int(&r, window.y1 + 1, n % 3 ? window.y1 + 40 : frame.y2 + 20);
+            /* No more of each clip than region() asks for. */
+            scene cut = s;
+            for (size_t clip = 0; clip < WO_LENS_BLUR_CLIPS; clip++) {
+                wo_rect needed;
+                const wo_plan_args args = scene_args(&s, window);
+                assert_int_equal(wo_lens_blur.region(&s.params, &args.geometry, window, clip,
+                                                     &needed, NULL),
+                                 WO_OK);
+                cut.clip[clip] = part_of(&s.clip[clip], needed);
+                assert_true(!s.clip[clip].data || cut.clip[clip].data);
+            }
+            wo_image out = picture_make(window, 4);
+            assert_int_equal(scene_run(&cut, &context, window, &out, NULL, NULL), WO_OK);
+            const wo_rect inside = wo_rect_intersect(window, frame);
+            assert_true(picture_same_bytes(&out, &whole, inside));
+            for (int32_t y = window.y1; y < window.y2; y++)
+                for (int32_t x = window.x1; x < window.x2; x++)
+                    if (!wo_rect_contains(frame, (wo_rect){x, y, x + 1, y + 1}))
+                        for (int k = 0; k < 4; k++)
+                            assert_true(wo_image_at(&out, x, y)[k] == 0);
+            picture_free(&out);
+        }
+        picture_free(&whole);
+        scene_free(&s);
+    }
+}
+
+/* Several windows out of one plan, and more than once. */
+static void windows_of_one_plan(void **state)
+{
+    (void)state;
+    const wo_context context = WO_CONTEXT_INIT;
+    scene s;
+    scene_make(&s, 2);
+    wo_image whole = scene_render(&s, NULL);
+    const wo_plan_args args = scene_args(&s, frame);
+    wo_plan *plan = NULL;
+    assert_int_equal(wo_lens_blur.plan_create(&context, &s.params, &args, &plan, NULL), WO_OK);
+    wo_image out = picture_make(frame, 4);
+    rng r = {2};
+    for (int n = 0; n < 20; n++) {
+        wo_rect window = {rng_int(&r, frame.x1, frame.x2 - 1), rng_int(&r, frame.y1, frame.y2 - 1),
+                          0, 0};
+        window.x2 = rng_int(&r, window.x1 + 1, frame.x2);
+        window.y2 = rng_int(&r, window.y1 + 1, frame.y2);
+        picture_fill(&out, (const float[4]){-7, -7, -7, -7});
+        assert_int_equal(wo_lens_blur.render(plan, window, &out, NULL, NULL), WO_OK);
+        assert_true(picture_same_bytes(&out, &whole, window));
+        /* Nothing outside the window is touched. */
+        for (int32_t y = frame.y1; y < frame.y2; y++)
+            for (int32_t x = frame.x1; x < frame.x2; x++)
+                if (!wo_rect_contains(window, (wo_rect){x, y, x + 1, y + 1}))
+                    assert_true(wo_image_at(&out, x, y)[0] == -7);
+    }
+    wo_lens_blur.plan_destroy(&plan);
+    assert_null(plan);
+    picture_free(&out);
+    picture_free(&whole);
+    scene_free(&s);
+}
+
+static void threads_change_nothing(void **state)
+{
+    (void)state;
+    const unsigned counts[] = {1, 2, 4, 7};
+    for (int kind = 0; kind < 4; kind++) {
+        scene s;
+        scene_make(&s, kind);
+        wo_report alone = {0};
+        wo_image want = scene_render(&s, &alone);
+        for (size_t i = 0; i < WO_COUNT(counts); i++) {
+            wo_context context = WO_CONTEXT_INIT;
+            context.runner = threads_runner(&counts[i]);
+            assert_int_equal(wo_workers(&context), counts[i]);
+            wo_report report = {0};
+            wo_image out = picture_make(frame, 4);
+            assert_int_equal(scene_run(&s, &context, frame, &out, &report, NULL), WO_OK);
+            assert_true(picture_same_bytes(&out, &want, frame));
+            memcpy(report.seconds, alone.seconds, sizeof report.seconds);
+            assert_memory_equal(&report, &alone, sizeof report);
+            picture_free(&out);
+        }
+        picture_free(&want);
+        scene_free(&s);
+    }
+}
+
+/* Rows from the bottom or from the top, with room between them. */
+static void rows_may_lie_anyhow(void **state)
+{
+    (void)state;
+    const wo_context context = WO_CONTEXT_INIT;
+    for (int kind = 0; kind < 4; kind++) {
+        scene s;
+        scene_make(&s, kind);
+        wo_image want = scene_render(&s, NULL);
+        for (int way = 0; way < 4; way++) {
+            const bool down = way & 1;
+            const int32_t pad = way & 2 ? 5 : 0;
+            scene other = s;
+            for (int i = 0; i < WO_LENS_BLUR_CLIPS; i++)
+                if (s.clip[i].data)
+                    other.clip[i] = picture_relaid(&s.clip[i], pad, down);
+            wo_image out = picture_relaid(&want, pad, !down);
+            picture_fill(&out, (const float[4]){-1, -1, -1, -1});
+            assert_int_equal(scene_run(&other, &context, frame, &out, NULL, NULL), WO_OK);
+            assert_true(picture_same_bytes(&out, &want, frame));
+            /* The room between the rows of the output stays what it was: NaN. */
+            for (int32_t y = frame.y1; y < frame.y2 && pad; y++)
+                for (int32_t i = 0; i < pad; i++)
+                    assert_true(isnan(wo_image_at(&out, frame.x2, y)[i]));
+            picture_free_relaid(&out, !down);
+            for (int i = 0; i < WO_LENS_BLUR_CLIPS; i++)
+                if (other.clip[i].data)
+                    picture_free_relaid(&other.clip[i], down);
+        }
+        picture_free(&want);
+        scene_free(&s);
+    }
+}
+
+/* Two machines may round differently, but not by more than a few hits on the border of patches. */
+static void kernels_agree(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 4; kind++) {
+        scene s;
+        scene_make(&s, kind);
+        const wo_context base = {.cpu = WO_CPU_BASE};
+        wo_image want = scene_render(&s, NULL);
+        wo_image out = picture_make(frame, 4);
+        assert_int_equal(scene_run(&s, &base, frame, &out, NULL, NULL), WO_OK);
+        int64_t different = 0;
+        for (int32_t y = frame.y1; y < frame.y2; y++)
+            for (int32_t x = frame.x1; x < frame.x2; x++)
+                for (int k = 0; k < 4; k++) {
+                    const double a = (double)wo_image_at(&out, x, y)[k];
+                    const double b = (double)wo_image_at(&want, x, y)[k];
+                    different += !(fabs(a - b) <= 1e-4 * fmax(1, fabs(b)));
+                }
+        assert_at_most((double)different, 1e-4 * 4 * 211 * 131);
+        picture_free(&want);
+        picture_free(&out);
+        scene_free(&s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tiles_are_the_whole),    cmocka_unit_test(windows_of_one_plan),
+        cmocka_unit_test(threads_change_nothing), cmocka_unit_test(rows_may_lie_anyhow),
+        cmocka_unit_test(kernels_agree),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
