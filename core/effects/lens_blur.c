@@ -69,7 +69,13 @@ static wo_rect on_grid(wo_rect r, int32_t grid_x, int32_t grid_y)
 wo_lens_blur_areas wo_lens_blur_plan_areas(const wo_lens_blur_setup *setup,
                                            const wo_geometry *geometry, wo_rect window)
 {
-    wo_lens_blur_areas areas;
+    /* Hosts ask for windows without end; no picture goes beyond this. */
+    const wo_rect known = {-WO_MAX_COORDINATE, -WO_MAX_COORDINATE, WO_MAX_COORDINATE,
+                           WO_MAX_COORDINATE};
+    wo_lens_blur_areas areas = {{0}, {0}};
+    window = wo_rect_intersect(window, known);
+    if (wo_rect_empty(window))
+        return areas;
     const double reach = setup->radius * fmax(1, geometry->pixel_stretch);
     const int32_t margin = (int32_t)ceil(reach) + WO_RAYS_MARGIN;
     const wo_rect tiles = on_grid(window, WO_TILE_WIDTH, WO_TILE_HEIGHT);

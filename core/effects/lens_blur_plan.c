@@ -168,6 +168,11 @@ static wo_status check_args(const wo_plan_args *args, wo_error *error)
     if (wo_rect_width(g->extent) > WO_MAX_SIDE || wo_rect_height(g->extent) > WO_MAX_SIDE)
         return wo_fail(error, WO_ERR_RANGE, "the picture is %d x %d px: at most %d on a side",
                        wo_rect_width(g->extent), wo_rect_height(g->extent), WO_MAX_SIDE);
+    const wo_rect known = {-WO_MAX_COORDINATE, -WO_MAX_COORDINATE, WO_MAX_COORDINATE,
+                           WO_MAX_COORDINATE};
+    if (!wo_rect_contains(known, g->extent))
+        return wo_fail(error, WO_ERR_RANGE, "the picture reaches beyond %d..%d px",
+                       -WO_MAX_COORDINATE, WO_MAX_COORDINATE);
     if (!(g->render_scale > 0 && g->render_scale <= 64) ||
         !(g->pixel_stretch >= 1.0 / 64 && g->pixel_stretch <= 64))
         return wo_fail(error, WO_ERR_RANGE, "render scale %g, pixel stretch %g: out of range",

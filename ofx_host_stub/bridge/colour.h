@@ -32,8 +32,9 @@ const char *wo_colour_name(const wo_colour *colour, size_t index);
 /* Colour space of an image file: what the file says of itself (wo_io_part.colour_space) if the
    configuration knows that name, else by the configuration's file rules. says may be NULL or "".
    The file need not exist. */
-WO_NODISCARD wo_status wo_colour_of_file(const wo_colour *colour, const char *path, const char *says,
-                                         char *name, size_t size, wo_error *error);
+WO_NODISCARD wo_status wo_colour_of_file(const wo_colour *colour, const char *path,
+                                         const char *says, char *name, size_t size,
+                                         wo_error *error);
 
 /* Does the space hold numbers that are no colour? Unknown names do not. */
 bool wo_colour_is_data(const wo_colour *colour, const char *name);

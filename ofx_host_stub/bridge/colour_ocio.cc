@@ -214,7 +214,8 @@ wo_status of_file(const wo_colour *colour, const char *path, const char *says, c
     const int length = std::snprintf(name, size, "%s", space->getName());
     return length >= 0 && static_cast<size_t>(length) < size
                ? WO_OK
-               : wo_fail(error, WO_ERR_RANGE, "the name of a colour space is longer than %zu", size);
+               : wo_fail(error, WO_ERR_RANGE, "the name of a colour space is longer than %zu",
+                         size);
 }
 
 } // namespace
@@ -253,9 +254,8 @@ extern "C" const char *wo_colour_name(const wo_colour *colour, size_t index)
 extern "C" wo_status wo_colour_of_file(const wo_colour *colour, const char *path, const char *says,
                                        char *name, size_t size, wo_error *error)
 {
-    return wo_guard(error, __func__, [&]() -> wo_status {
-        return of_file(colour, path, says, name, size, error);
-    });
+    return wo_guard(error, __func__,
+                    [&]() -> wo_status { return of_file(colour, path, says, name, size, error); });
 }
 
 extern "C" bool wo_colour_is_data(const wo_colour *colour, const char *name)
@@ -270,26 +270,23 @@ extern "C" bool wo_colour_is_data(const wo_colour *colour, const char *name)
 extern "C" wo_status wo_colour_convert(const wo_colour *colour, const char *from, const char *to,
                                        wo_image *image, wo_error *error)
 {
-    return wo_guard(error, __func__, [&]() -> wo_status {
-        return convert(colour, from, to, image, true, error);
-    });
+    return wo_guard(error, __func__,
+                    [&]() -> wo_status { return convert(colour, from, to, image, true, error); });
 }
 
 extern "C" wo_status wo_colour_convert_straight(const wo_colour *colour, const char *from,
                                                 const char *to, wo_image *image, wo_error *error)
 {
-    return wo_guard(error, __func__, [&]() -> wo_status {
-        return convert(colour, from, to, image, false, error);
-    });
+    return wo_guard(error, __func__,
+                    [&]() -> wo_status { return convert(colour, from, to, image, false, error); });
 }
 
 extern "C" wo_status wo_colour_display(const wo_colour *colour, const char *from,
                                        const char *display, const char *view, wo_image *image,
                                        wo_error *error)
 {
-    return wo_guard(error, __func__, [&]() -> wo_status {
-        return show(colour, from, display, view, image, error);
-    });
+    return wo_guard(error, __func__,
+                    [&]() -> wo_status { return show(colour, from, display, view, image, error); });
 }
 
 extern "C" int wo_colour_list_displays(const wo_colour *colour, char *buffer, size_t size)

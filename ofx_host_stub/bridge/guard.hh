@@ -10,7 +10,8 @@
 
 /* Runs the body of an extern "C" function; whatever a foreign library throws becomes a status, and
    its words go into *error. The only place where exceptions are caught. */
-template <typename Body> wo_status wo_guard(wo_error *error, const char *where, Body body) noexcept
+template <typename Body>
+wo_status wo_guard(wo_error *error, const char *where, Body body) noexcept
 {
     try {
         return body();

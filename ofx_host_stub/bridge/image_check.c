@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 /* Cut files that OpenImageIO's readers take for whole ones: they fill what is missing with grey
-   (JPEG) or leave it (DPX). Of a cut PNG they take leave without tidying up. */
+   (JPEG) or leave it (DPX). On a cut PNG the reader loses memory. */
 
 static wo_status cut_off(const char *path, wo_error *error)
 {
@@ -21,8 +21,7 @@ static bool read_at(int fd, void *buffer, size_t size, uint64_t offset)
 {
     size_t done = 0;
     while (done < size) {
-        const ssize_t got =
-            pread(fd, (char *)buffer + done, size - done, (off_t)(offset + done));
+        const ssize_t got = pread(fd, (char *)buffer + done, size - done, (off_t)(offset + done));
         if (got <= 0)
             return false;
         done += (size_t)got;
@@ -58,6 +57,9 @@ static wo_status check_dpx(const char *path, int fd, uint64_t size, wo_error *er
     const uint32_t height = number(head + 776, 4, low_first);
     const uint32_t descriptor = head[800], bits = head[803];
     const uint32_t packing = number(head + 804, 2, low_first);
+    const uint32_t user_bytes = number(head + 32, 4, low_first);
+    if (user_bytes != UINT32_MAX && user_bytes > size) /* the library aborts on such a size */
+        return cut_off(path, error);
     const bool packed_runs = number(head + 806, 2, low_first) == 1;
     const uint32_t start = number(head + 808, 4, low_first);
     const uint32_t samples = descriptor == 50 ? 3 : descriptor == 51 || descriptor == 52 ? 4 : 1;
@@ -81,8 +83,8 @@ static wo_status check_png(const char *path, int fd, uint64_t size, wo_error *er
     return cut_off(path, error);
 }
 
-/* Is there a mark that ends the picture, behind the first scan's header? Inside a scan 0xff is always
-   followed by 0 or a mark. */
+/* Is there a mark that ends the picture, behind the first scan's header? Inside a scan 0xff is
+   always followed by 0 or a mark. */
 static bool jpeg_ends(const unsigned char *bytes, size_t size)
 {
     size_t at = 2;

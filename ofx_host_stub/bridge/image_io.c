@@ -178,8 +178,8 @@ wo_status wo_io_part_init(wo_io_part *part, const char *name, wo_rect data_windo
                           wo_rect display_window, const char *const *channel_names, int channels,
                           wo_error *error)
 {
-    WO_TRY(wo_io_part_head(part, name, data_window, display_window, channel_names, channels,
-                           error));
+    WO_TRY(
+        wo_io_part_head(part, name, data_window, display_window, channel_names, channels, error));
     const wo_status status = wo_io_part_pixels(part, error);
     if (status != WO_OK)
         wo_io_part_clear(part);

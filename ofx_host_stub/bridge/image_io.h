@@ -9,9 +9,9 @@
 extern "C" {
 #endif
 
-/* Image files in and out. Pixels are 32-bit floats, interleaved, y up (row 0 of pixels is the bottom
-   row of data_window). Both windows are in OFX orientation: y up, origin at the lower left of
-   the display window, so a file whose display window is 0..w-1 x 0..h-1 gives {0, 0, w, h}.
+/* Image files in and out. Pixels are 32-bit floats, interleaved, y up (row 0 of pixels is the
+   bottom row of data_window). Both windows are in OFX orientation: y up, origin at the lower left
+   of the display window, so a file whose display window is 0..w-1 x 0..h-1 gives {0, 0, w, h}.
    Values are those of the file: nothing is linearised, premultiplied or clipped while reading. All
    functions may be called from any thread; one file is used by one thread at a time. */
 
@@ -61,19 +61,25 @@ typedef struct wo_io_file {
    extension: png tif tiff jpg jpeg dpx cin hdr tga bmp ppm pgm pnm webp jp2.
    Truncated or hostile files give WO_ERR_FORMAT, missing ones WO_ERR_IO, pictures beyond
    WO_MAX_SIDE or WO_IO_MAX_BYTES WO_ERR_RANGE before anything of that size is allocated.
-   EXR: tiled parts give their full resolution. Deep parts are flattened: R, G, B, A (of every layer)
-   are composited front to back by Z with A, everything else is that of the nearest sample, and
-   the part carries "wideopen:flattenedDeep" = 1; ZBack is taken for a point. Channels stored at
+   EXR: tiled parts give their full resolution. Deep parts are flattened: R, G, B, A (of every
+   layer) are composited front to back by Z with A, everything else is that of the nearest sample,
+   and the part carries "wideopen:flattenedDeep" = 1; ZBack is taken for a point. Channels stored at
    reduced resolution give WO_ERR_UNSUPPORTED. Unsigned integers are exact up to 2^24. */
 WO_NODISCARD wo_status wo_io_read(const char *path, bool headers_only, wo_io_file **file,
                                   wo_error *error);
 void wo_io_file_destroy(wo_io_file **file);
 
 /* How samples are stored. */
-typedef enum wo_io_depth { WO_IO_AUTO, WO_IO_BYTE, WO_IO_SHORT, WO_IO_HALF, WO_IO_SINGLE } wo_io_depth;
+typedef enum wo_io_depth {
+    WO_IO_AUTO,
+    WO_IO_BYTE,
+    WO_IO_SHORT,
+    WO_IO_HALF,
+    WO_IO_SINGLE
+} wo_io_depth;
 
-/* Writes the parts to path (format by its extension; several parts, data windows and attributes need
-   EXR), to a temporary name beside it first and then renamed, so path never holds half a file
+/* Writes the parts to path (format by its extension; several parts, data windows and attributes
+   need EXR), to a temporary name beside it first and then renamed, so path never holds half a file
    and an older file survives a failure. A symbolic link is followed; what exists and is no
    ordinary file is refused.
    EXR takes WO_IO_AUTO (half for R, G, B, A and a lone Y, float for Z, N, P, ids and the rest),
@@ -89,8 +95,8 @@ typedef enum wo_io_depth { WO_IO_AUTO, WO_IO_BYTE, WO_IO_SHORT, WO_IO_HALF, WO_I
 WO_NODISCARD wo_status wo_io_write(const char *path, const wo_io_part *parts, size_t part_count,
                                    wo_io_depth depth, wo_error *error);
 
-/* Makes an empty file with part_count zeroed parts, and helpers to fill one by hand. All strings and
-   arrays inside are malloc-ed and go with wo_io_file_destroy. */
+/* Makes an empty file with part_count zeroed parts, and helpers to fill one by hand. All strings
+   and arrays inside are malloc-ed and go with wo_io_file_destroy. */
 WO_NODISCARD wo_status wo_io_file_create(size_t part_count, wo_io_file **file, wo_error *error);
 /* Gives a part its windows, channel names (copied) and zeroed pixels; name NULL means "". What the
    part held before is freed. A part outside a file must start as zero bytes. */

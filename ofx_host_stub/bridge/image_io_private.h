@@ -28,9 +28,10 @@ void wo_io_restore_locale(locale_t before);
 char *wo_io_copy_text(const char *text);
 
 /* Refuses windows and channel counts beyond the limits, and adds the bytes of the part's pixels to
-   *total. Call before allocating. */
-WO_NODISCARD wo_status wo_io_check_size(const char *path, wo_rect data_window, wo_rect display_window,
-                                        int64_t channels, uint64_t *total, wo_error *error);
+ *total. Call before allocating. */
+WO_NODISCARD wo_status wo_io_check_size(const char *path, wo_rect data_window,
+                                        wo_rect display_window, int64_t channels, uint64_t *total,
+                                        wo_error *error);
 
 /* Like wo_io_part_init, without pixels. */
 WO_NODISCARD wo_status wo_io_part_head(wo_io_part *part, const char *name, wo_rect data_window,
@@ -65,10 +66,10 @@ const wo_io_format *wo_io_format_of(const char *path);
 WO_NODISCARD wo_status wo_io_check_whole(const char *path, int fd, const wo_io_format *format,
                                          wo_error *error);
 
-/* io_exr_*.c. fd is open, positioned anywhere, and stays open; path is for texts and for the fallback
-   below. Reading leaves a half-filled *file to the caller when it fails. */
-WO_NODISCARD wo_status wo_io_exr_read(const char *path, int fd, bool headers_only, wo_io_file **file,
-                                      wo_error *error);
+/* io_exr_*.c. fd is open, positioned anywhere, and stays open; path is for texts and for the
+   fallback below. Reading leaves a half-filled *file to the caller when it fails. */
+WO_NODISCARD wo_status wo_io_exr_read(const char *path, int fd, bool headers_only,
+                                      wo_io_file **file, wo_error *error);
 WO_NODISCARD wo_status wo_io_exr_write(const char *path, int fd, const wo_io_part *parts,
                                        size_t part_count, wo_io_depth depth, wo_error *error);
 
@@ -77,7 +78,7 @@ WO_NODISCARD wo_status wo_io_oiio_read(const char *path, const wo_io_format *for
                                        bool headers_only, wo_io_file **file, wo_error *error);
 WO_NODISCARD wo_status wo_io_oiio_write(const char *path, int fd, const wo_io_format *format,
                                         const wo_io_part *part, wo_io_depth depth, wo_error *error);
-/* Fills the pixels of an EXR part whose header is read; for compressions OpenEXRCore cannot do (B44, DWA). */
+/* Fills the pixels of an EXR part whose header is read; for B44 and DWA. */
 WO_NODISCARD wo_status wo_io_oiio_exr_pixels(const char *path, int part_index, wo_io_part *part,
                                              wo_error *error);
 

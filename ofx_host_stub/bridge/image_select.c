@@ -97,8 +97,7 @@ static choice pick_channels(const wo_io_part *part, const char *list, bool any_c
 static bool in_layer(const char *channel, const char *layer, bool any_case)
 {
     const size_t have = wo_io_layer_length(channel), want = strlen(layer);
-    if (have < want || (want == 0 && have > 0) ||
-        (have > want && channel[have - want - 1] != '.'))
+    if (have < want || (want == 0 && have > 0) || (have > want && channel[have - want - 1] != '.'))
         return false;
     const char *const tail = channel + (have - want);
     return !(any_case ? strncasecmp(tail, layer, want) : strncmp(tail, layer, want));
@@ -149,7 +148,8 @@ static choice pick_layer(const wo_io_part *part, const char *layer, bool any_cas
     return found;
 }
 
-/* What a part shows by itself; a part of layers only shows the first with colour, else the first. */
+/* What a part shows by itself; a part of layers only shows the first with colour, else the first.
+ */
 static choice pick_default(const wo_io_part *part)
 {
     choice found = pick_layer(part, "", false);
@@ -264,8 +264,8 @@ static void list_contents(const wo_io_file *file, char *buffer, size_t size)
 static wo_status copy_choice(const choice *found, wo_image *image, wo_error *error)
 {
     const wo_io_part *const part = found->part;
-    const size_t pixels = (size_t)wo_rect_width(part->data_window) *
-                          (size_t)wo_rect_height(part->data_window);
+    const size_t pixels =
+        (size_t)wo_rect_width(part->data_window) * (size_t)wo_rect_height(part->data_window);
     const size_t count = (size_t)found->count, stride = (size_t)part->channels;
     float *const data = malloc(pixels * count * sizeof *data);
     if (!data)
@@ -277,11 +277,11 @@ static wo_status copy_choice(const choice *found, wo_image *image, wo_error *err
         for (size_t i = 0; i < pixels; i++)
             data[i * count + c] = from[i * stride];
     }
-    *image = (wo_image){.data = data,
-                        .bounds = part->data_window,
-                        .row_bytes = (ptrdiff_t)((size_t)wo_rect_width(part->data_window) * count *
-                                                 sizeof *data),
-                        .components = found->count};
+    *image = (wo_image){
+        .data = data,
+        .bounds = part->data_window,
+        .row_bytes = (ptrdiff_t)((size_t)wo_rect_width(part->data_window) * count * sizeof *data),
+        .components = found->count};
     return WO_OK;
 }
 

@@ -42,10 +42,18 @@ static const array_kind array_kinds[] = {
 /* Told by members of wo_io_part, or made anew by the writer. */
 static bool is_structural(const char *name)
 {
-    static const char *const names[] = {"channels",    "dataWindow",         "displayWindow",
-                                        "lineOrder",   "pixelAspectRatio",   "name",
-                                        "type",        "version",            "chunkCount",
-                                        "tiles",       "maxSamplesPerPixel", "preview",
+    static const char *const names[] = {"channels",
+                                        "dataWindow",
+                                        "displayWindow",
+                                        "lineOrder",
+                                        "pixelAspectRatio",
+                                        "name",
+                                        "type",
+                                        "version",
+                                        "chunkCount",
+                                        "tiles",
+                                        "maxSamplesPerPixel",
+                                        "preview",
                                         "deepImageState"};
     for (size_t i = 0; i < WO_COUNT(names); i++)
         if (!strcmp(name, names[i]))
@@ -63,20 +71,34 @@ static bool kind_conflicts(const wo_io_attribute *attribute)
         const char *name, *kind;
         wo_io_type type;
     } known[] = {
-        {"chromaticities", "chromaticities", WO_IO_TEXT}, {"whiteLuminance", "", WO_IO_FLOAT},
-        {"adoptedNeutral", "v2f", WO_IO_TEXT},            {"renderingTransform", "", WO_IO_TEXT},
-        {"lookModTransform", "", WO_IO_TEXT},             {"xDensity", "", WO_IO_FLOAT},
-        {"owner", "", WO_IO_TEXT},                        {"comments", "", WO_IO_TEXT},
-        {"capDate", "", WO_IO_TEXT},                      {"utcOffset", "", WO_IO_FLOAT},
-        {"longitude", "", WO_IO_FLOAT},                   {"latitude", "", WO_IO_FLOAT},
-        {"altitude", "", WO_IO_FLOAT},                    {"focus", "", WO_IO_FLOAT},
-        {"expTime", "", WO_IO_FLOAT},                     {"aperture", "", WO_IO_FLOAT},
-        {"isoSpeed", "", WO_IO_FLOAT},                    {"keyCode", "keycode", WO_IO_TEXT},
-        {"timeCode", "timecode", WO_IO_TEXT},             {"wrapmodes", "", WO_IO_TEXT},
-        {"framesPerSecond", "rational", WO_IO_TEXT},      {"multiView", "stringvector", WO_IO_TEXT},
-        {"worldToCamera", "m44f", WO_IO_TEXT},            {"worldToNDC", "m44f", WO_IO_TEXT},
-        {"originalDataWindow", "box2i", WO_IO_TEXT},      {"view", "", WO_IO_TEXT},
-        {"screenWindowCenter", "v2f", WO_IO_TEXT},        {"screenWindowWidth", "", WO_IO_FLOAT},
+        {"chromaticities", "chromaticities", WO_IO_TEXT},
+        {"whiteLuminance", "", WO_IO_FLOAT},
+        {"adoptedNeutral", "v2f", WO_IO_TEXT},
+        {"renderingTransform", "", WO_IO_TEXT},
+        {"lookModTransform", "", WO_IO_TEXT},
+        {"xDensity", "", WO_IO_FLOAT},
+        {"owner", "", WO_IO_TEXT},
+        {"comments", "", WO_IO_TEXT},
+        {"capDate", "", WO_IO_TEXT},
+        {"utcOffset", "", WO_IO_FLOAT},
+        {"longitude", "", WO_IO_FLOAT},
+        {"latitude", "", WO_IO_FLOAT},
+        {"altitude", "", WO_IO_FLOAT},
+        {"focus", "", WO_IO_FLOAT},
+        {"expTime", "", WO_IO_FLOAT},
+        {"aperture", "", WO_IO_FLOAT},
+        {"isoSpeed", "", WO_IO_FLOAT},
+        {"keyCode", "keycode", WO_IO_TEXT},
+        {"timeCode", "timecode", WO_IO_TEXT},
+        {"wrapmodes", "", WO_IO_TEXT},
+        {"framesPerSecond", "rational", WO_IO_TEXT},
+        {"multiView", "stringvector", WO_IO_TEXT},
+        {"worldToCamera", "m44f", WO_IO_TEXT},
+        {"worldToNDC", "m44f", WO_IO_TEXT},
+        {"originalDataWindow", "box2i", WO_IO_TEXT},
+        {"view", "", WO_IO_TEXT},
+        {"screenWindowCenter", "v2f", WO_IO_TEXT},
+        {"screenWindowWidth", "", WO_IO_FLOAT},
         {"dwaCompressionLevel", "", WO_IO_FLOAT},
     };
     if (!strcmp(attribute->name, "envmap") || !strcmp(attribute->name, "idManifest"))
@@ -217,8 +239,8 @@ wo_status wo_exr_read_attributes(const wo_exr_stream *stream, exr_const_context_
     WO_EXR_TRY(stream, exr_get_attribute_count(exr, index, &count));
     for (int32_t i = 0; i < count; i++) {
         const exr_attribute_t *attribute = NULL;
-        WO_EXR_TRY(stream, exr_get_attribute_by_index(exr, index, EXR_ATTR_LIST_FILE_ORDER, i,
-                                                      &attribute));
+        WO_EXR_TRY(stream,
+                   exr_get_attribute_by_index(exr, index, EXR_ATTR_LIST_FILE_ORDER, i, &attribute));
         if (!is_structural(attribute->name))
             WO_TRY(read_attribute(attribute, part, error));
     }

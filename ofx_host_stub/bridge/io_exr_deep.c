@@ -144,10 +144,10 @@ static wo_status flatten_lines(wo_exr_source *source, const exr_decode_pipeline_
                 return wo_fail(source->error, WO_ERR_NOMEM, "no memory for deep samples");
             for (size_t s = 0; s < count; s++) {
                 order[s].index = (int32_t)s;
-                order[s].depth = line->depth < 0 ? 0
-                                                 : wo_exr_sample(line->rows[line->depth],
-                                                                 line->types[line->depth],
-                                                                 first + s);
+                order[s].depth = line->depth < 0
+                                     ? 0
+                                     : wo_exr_sample(line->rows[line->depth],
+                                                     line->types[line->depth], first + s);
             }
             qsort(order, count, sizeof *order, compare_depth);
             const size_t pixel = up * part_width + (size_t)source->x + x;

@@ -12,10 +12,10 @@
 typedef struct wo_exr_stream {
     const char *path;
     int fd;
-    int64_t size;       /* of a file being read */
-    int system_error;   /* errno of the first failed call, 0 = none */
-    bool no_memory;     /* the library asked for some and got none */
-    char words[128];    /* first complaint of the library */
+    int64_t size;     /* of a file being read */
+    int system_error; /* errno of the first failed call, 0 = none */
+    bool no_memory;   /* the library asked for some and got none */
+    char words[128];  /* first complaint of the library */
 } wo_exr_stream;
 
 /* From begin to end the library's complaints in this thread go to the stream. */

@@ -75,10 +75,14 @@ static wo_status part_windows(const wo_exr_stream *stream, exr_const_context_t e
     exr_attr_box2i_t inner, outer;
     WO_EXR_TRY(stream, exr_get_data_window(exr, index, &inner));
     WO_EXR_TRY(stream, exr_get_display_window(exr, index, &outer));
-    const int64_t values[8] = {
-        (int64_t)inner.min.x - outer.min.x, (int64_t)outer.max.y - inner.max.y,
-        (int64_t)inner.max.x - outer.min.x + 1, (int64_t)outer.max.y - inner.min.y + 1,
-        0, 0, (int64_t)outer.max.x - outer.min.x + 1, (int64_t)outer.max.y - outer.min.y + 1};
+    const int64_t values[8] = {(int64_t)inner.min.x - outer.min.x,
+                               (int64_t)outer.max.y - inner.max.y,
+                               (int64_t)inner.max.x - outer.min.x + 1,
+                               (int64_t)outer.max.y - inner.min.y + 1,
+                               0,
+                               0,
+                               (int64_t)outer.max.x - outer.min.x + 1,
+                               (int64_t)outer.max.y - outer.min.y + 1};
     int32_t cut[8];
     for (int i = 0; i < 8; i++)
         cut[i] = (int32_t)(values[i] < INT32_MIN   ? INT32_MIN
@@ -121,9 +125,8 @@ static wo_status read_head(const wo_exr_stream *stream, exr_const_context_t exr,
         for (size_t i = 0; i < count; i++) {
             const exr_attr_chlist_entry_t *const entry = &list->entries[places[i].index];
             names[i] = places[i].name;
-            (*channels)[places[i].index] =
-                (wo_exr_channel){(int)i, entry->pixel_type,
-                                 entry->pixel_type == EXR_PIXEL_HALF ? 2 : 4};
+            (*channels)[places[i].index] = (wo_exr_channel){
+                (int)i, entry->pixel_type, entry->pixel_type == EXR_PIXEL_HALF ? 2 : 4};
         }
         status = wo_io_part_head(part, name, data, display, names, (int)count, error);
     }
@@ -179,8 +182,8 @@ static wo_status unpack_flat(const wo_exr_source *source, const exr_decode_pipel
 static exr_result_t unpack(exr_decode_pipeline_t *decode)
 {
     wo_exr_source *const source = decode->decoding_user_data;
-    const bool deep = source->storage == EXR_STORAGE_DEEP_SCANLINE ||
-                      source->storage == EXR_STORAGE_DEEP_TILED;
+    const bool deep =
+        source->storage == EXR_STORAGE_DEEP_SCANLINE || source->storage == EXR_STORAGE_DEEP_TILED;
     source->status = deep ? wo_exr_flatten(source, decode) : unpack_flat(source, decode);
     return source->status == WO_OK ? EXR_ERR_SUCCESS : EXR_ERR_CORRUPT_CHUNK;
 }
@@ -189,8 +192,8 @@ static exr_result_t unpack(exr_decode_pipeline_t *decode)
 static wo_status check_chunk(const wo_exr_source *source, const exr_chunk_info_t *chunk)
 {
     const uint64_t file = (uint64_t)source->stream->size;
-    const bool deep = source->storage == EXR_STORAGE_DEEP_SCANLINE ||
-                      source->storage == EXR_STORAGE_DEEP_TILED;
+    const bool deep =
+        source->storage == EXR_STORAGE_DEEP_SCANLINE || source->storage == EXR_STORAGE_DEEP_TILED;
     if (chunk->width < 1 || chunk->height < 1)
         return damaged(source, "a block of pixels has no size");
     if (chunk->packed_size > file || (deep && chunk->sample_count_table_size > file))
@@ -222,8 +225,7 @@ static wo_status run_chunk(wo_exr_source *source, exr_decode_pipeline_t *decode,
                    exr_decoding_choose_default_routines(source->exr, source->index, decode));
         decode->unpack_and_convert_fn = unpack;
     } else {
-        WO_EXR_TRY(source->stream,
-                   exr_decoding_update(source->exr, source->index, chunk, decode));
+        WO_EXR_TRY(source->stream, exr_decoding_update(source->exr, source->index, chunk, decode));
     }
     source->status = WO_OK;
     const exr_result_t result = exr_decoding_run(source->exr, source->index, decode);
@@ -267,8 +269,8 @@ static wo_status read_chunks(wo_exr_source *source, exr_decode_pipeline_t *decod
     return WO_OK;
 }
 
-/* A file of a few bytes must not make us allocate gigabytes: each chunk has 8 bytes in the table and
-   at least 8 of its own, and no compression reaches 1 : 4096, or 1 : 65536 for DWA. */
+/* A file of a few bytes must not make us allocate gigabytes: each chunk has 8 bytes in the table
+   and at least 8 of its own, and no compression reaches 1 : 4096, or 1 : 65536 for DWA. */
 static wo_status check_plausible(const wo_exr_source *source)
 {
     int32_t chunks = 0;
@@ -279,8 +281,8 @@ static wo_status check_plausible(const wo_exr_source *source)
         return damaged(source, "the file is too short for its picture");
     const uint64_t pixels = (uint64_t)wo_rect_width(source->part->data_window) *
                             (uint64_t)wo_rect_height(source->part->data_window);
-    const bool deep = source->storage == EXR_STORAGE_DEEP_SCANLINE ||
-                      source->storage == EXR_STORAGE_DEEP_TILED;
+    const bool deep =
+        source->storage == EXR_STORAGE_DEEP_SCANLINE || source->storage == EXR_STORAGE_DEEP_TILED;
     const uint64_t least = pixels * (deep ? 4 : source->pixel_bytes);
     if (least / (source->compression < EXR_COMPRESSION_DWAA ? 4096 : 65536) > file)
         return damaged(source, "the file is too short for its picture");
@@ -292,8 +294,12 @@ static wo_status check_plausible(const wo_exr_source *source)
 static wo_status read_pixels(wo_exr_stream *stream, exr_const_context_t exr, int index,
                              wo_io_part *part, const wo_exr_channel *channels, wo_error *error)
 {
-    wo_exr_source source = {.stream = stream, .exr = exr, .index = index, .part = part,
-                            .channels = channels, .error = error};
+    wo_exr_source source = {.stream = stream,
+                            .exr = exr,
+                            .index = index,
+                            .part = part,
+                            .channels = channels,
+                            .error = error};
     const exr_attr_chlist_t *list = NULL;
     WO_EXR_TRY(stream, exr_get_storage(exr, index, &source.storage));
     WO_EXR_TRY(stream, exr_get_compression(exr, index, &source.compression));
@@ -309,8 +315,8 @@ static wo_status read_pixels(wo_exr_stream *stream, exr_const_context_t exr, int
                            (int)entry->y_sampling);
     }
     if (source.storage == EXR_STORAGE_TILED || source.storage == EXR_STORAGE_DEEP_TILED) {
-        WO_EXR_TRY(stream, exr_get_tile_sizes(exr, index, 0, 0, &source.tile_width,
-                                              &source.tile_height));
+        WO_EXR_TRY(stream,
+                   exr_get_tile_sizes(exr, index, 0, 0, &source.tile_width, &source.tile_height));
         if (source.tile_width < 1 || source.tile_height < 1 ||
             source.tile_width > WO_MAX_COORDINATE || source.tile_height > WO_MAX_COORDINATE)
             return damaged(&source, "tiles of an impossible size");

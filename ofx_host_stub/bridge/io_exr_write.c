@@ -97,9 +97,9 @@ static wo_status define_part(const wo_exr_stream *stream, exr_context_t exr, con
         part->pixel_aspect > 0 && part->pixel_aspect < 1e6 ? (float)part->pixel_aspect : 1.0f;
 
     WO_EXR_TRY(stream, exr_add_part(exr, named ? part->name : NULL, EXR_STORAGE_SCANLINE, &index));
-    WO_EXR_TRY(stream, exr_initialize_required_attr(exr, index, &outer, &inner, aspect, &centre, 1,
-                                                    EXR_LINEORDER_INCREASING_Y,
-                                                    compression_of(part)));
+    WO_EXR_TRY(stream,
+               exr_initialize_required_attr(exr, index, &outer, &inner, aspect, &centre, 1,
+                                            EXR_LINEORDER_INCREASING_Y, compression_of(part)));
     WO_EXR_TRY(stream, exr_set_zip_compression_level(exr, index, 4));
     for (int i = 0; i < part->channels; i++) {
         const char *const name = part->channel_names[i];
@@ -163,8 +163,7 @@ static wo_status write_part(const wo_exr_stream *stream, exr_context_t exr, int 
     }
     exr_encode_pipeline_t encode = EXR_ENCODE_PIPELINE_INITIALIZER;
     bool started = false;
-    const wo_status status =
-        encode_chunks(stream, exr, index, &source, &encode, &started, error);
+    const wo_status status = encode_chunks(stream, exr, index, &source, &encode, &started, error);
     if (started)
         exr_encoding_destroy(exr, &encode);
     free(channels);
@@ -192,8 +191,8 @@ static wo_status write_parts(const wo_exr_stream *stream, exr_context_t exr,
     if (has_long_names(parts, part_count))
         WO_EXR_TRY(stream, exr_set_longname_support(exr, 1));
     for (size_t i = 0; i < part_count; i++)
-        WO_TRY(define_part(stream, exr, &parts[i], part_count > 1 || (parts[i].name && *parts[i].name),
-                           depth, error));
+        WO_TRY(define_part(stream, exr, &parts[i],
+                           part_count > 1 || (parts[i].name && *parts[i].name), depth, error));
     WO_EXR_TRY(stream, exr_write_header(exr));
     for (size_t i = 0; i < part_count; i++)
         WO_TRY(write_part(stream, exr, (int)i, &parts[i], error));

@@ -26,7 +26,7 @@ namespace
    with its return values. */
 class Drain final : public OIIO::Filesystem::IOProxy
 {
-public:
+  public:
     explicit Drain(const char *path, int fd) : IOProxy(path, Write), m_fd(fd) {}
     /* "file" would have writers take this for a class with a FILE in it */
     const char *proxytype() const override { return "descriptor"; }
@@ -69,7 +69,7 @@ public:
     size_t size() const override { return m_size; }
     int failure() const { return m_failure; }
 
-private:
+  private:
     int m_fd;
     int m_failure = 0;
     size_t m_size = 0;
@@ -84,7 +84,8 @@ std::string one_line(std::string words)
 }
 
 /* The library keeps its words per thread and per reader: fetched at once, both places emptied. */
-template <typename Object> std::string words_of(Object *object)
+template <typename Object>
+std::string words_of(Object *object)
 {
     const std::string general = OIIO::geterror();
     const std::string own = object ? object->geterror() : std::string();
@@ -113,7 +114,11 @@ std::string print_numbers(const OIIO::ParamValue &value, size_t count, const cha
 const char *array_kind(OIIO::TypeDesc type, size_t count)
 {
     if (type.basetype == OIIO::TypeDesc::FLOAT)
-        return count == 2 ? "v2f" : count == 3 ? "v3f" : count == 9 ? "m33f" : count == 16 ? "m44f" : "";
+        return count == 2    ? "v2f"
+               : count == 3  ? "v3f"
+               : count == 9  ? "m33f"
+               : count == 16 ? "m44f"
+                             : "";
     return count == 2 ? "v2i" : count == 3 ? "v3i" : count == 4 ? "box2i" : "";
 }
 
@@ -128,7 +133,8 @@ wo_status add_attribute(wo_io_part *part, const OIIO::ParamValue &value, wo_erro
     if (!*name || count < 1 || value.nvalues() != 1)
         return WO_OK;
     if (type == OIIO::TypeDesc::STRING)
-        return wo_io_part_add(part, name, WO_IO_TEXT, 0, value.get_string().c_str(), nullptr, error);
+        return wo_io_part_add(part, name, WO_IO_TEXT, 0, value.get_string().c_str(), nullptr,
+                              error);
     if (count == 1 && type.basetype != OIIO::TypeDesc::STRING) {
         const bool fraction = is_float || type.basetype == OIIO::TypeDesc::DOUBLE ||
                               type.basetype == OIIO::TypeDesc::HALF;
@@ -170,8 +176,7 @@ wo_status fill_head(wo_io_part *part, const char *path, const wo_io_format *form
     const int64_t frame_height = framed ? spec.full_height : spec.height;
     const int64_t left = framed ? int64_t(spec.x) - spec.full_x : 0;
     const int64_t top = framed ? int64_t(spec.y) - spec.full_y : 0;
-    const wo_rect data =
-        rectangle(left, frame_height - top - spec.height, spec.width, spec.height);
+    const wo_rect data = rectangle(left, frame_height - top - spec.height, spec.width, spec.height);
     const wo_rect display = rectangle(0, 0, frame_width, frame_height);
 
     WO_TRY(wo_io_check_size(path, data, display, spec.nchannels, bytes, error));
@@ -193,8 +198,8 @@ wo_status fill_head(wo_io_part *part, const char *path, const wo_io_format *form
             WO_TRY(add_attribute(part, value, error));
     /* PNM files say nothing; the library makes them Rec.709, other programs write sRGB */
     const bool silent = !std::strcmp(format->library_name, "pnm");
-    char *const space = wo_io_copy_text(
-        silent ? "" : spec.get_string_attribute("oiio:ColorSpace").c_str());
+    char *const space =
+        wo_io_copy_text(silent ? "" : spec.get_string_attribute("oiio:ColorSpace").c_str());
     if (!space)
         return wo_fail(error, WO_ERR_NOMEM, "no memory for a colour space");
     std::free(part->colour_space);
@@ -204,8 +209,8 @@ wo_status fill_head(wo_io_part *part, const char *path, const wo_io_format *form
 
 void flip_rows(wo_io_part *part)
 {
-    const size_t row = static_cast<size_t>(wo_rect_width(part->data_window)) *
-                       static_cast<size_t>(part->channels);
+    const size_t row =
+        static_cast<size_t>(wo_rect_width(part->data_window)) * static_cast<size_t>(part->channels);
     const size_t height = static_cast<size_t>(wo_rect_height(part->data_window));
     for (size_t y = 0; y < height / 2; y++)
         std::swap_ranges(part->pixels + y * row, part->pixels + (y + 1) * row,
@@ -214,8 +219,8 @@ void flip_rows(wo_io_part *part)
 
 /* Headers that claim far more than the format can pack into the file's length. WebP and JPEG 2000
    can say "all the same" in a few bytes. */
-wo_status check_plausible(const char *path, const wo_io_format *format,
-                          const OIIO::ImageSpec &spec, wo_error *error)
+wo_status check_plausible(const char *path, const wo_io_format *format, const OIIO::ImageSpec &spec,
+                          wo_error *error)
 {
     const uint64_t file = OIIO::Filesystem::file_size(path);
     const bool terse = !std::strcmp(format->library_name, "webp") ||
@@ -370,9 +375,8 @@ wo_status write_file(const char *path, int fd, const wo_io_format *format, const
 {
     const int channels = channels_written(part, format);
     const OIIO::ImageSpec spec = spec_of(part, format, channels, depth);
-    const float steps = spec.format.is_floating_point()
-                            ? 0.0f
-                            : static_cast<float>((1u << bits_of(spec)) - 1);
+    const float steps =
+        spec.format.is_floating_point() ? 0.0f : static_cast<float>((1u << bits_of(spec)) - 1);
     const std::vector<float> pixels = picture_of(part, channels, steps);
     Drain drain(path, fd);
     bool written = false;
@@ -419,7 +423,8 @@ wo_status read_exr_part(const char *path, int index, wo_io_part *part, wo_error 
     for (size_t c = 0; c < stride; c++) {
         const int from = spec.channelindex(part->channel_names[c]);
         if (from < 0)
-            return failure(error, WO_ERR_FORMAT, path, "two libraries name its channels differently");
+            return failure(error, WO_ERR_FORMAT, path,
+                           "two libraries name its channels differently");
         for (size_t i = 0; i < spec.image_pixels(); i++)
             part->pixels[i * stride + c] = pixels[i * stride + static_cast<size_t>(from)];
     }
@@ -448,7 +453,6 @@ extern "C" wo_status wo_io_oiio_write(const char *path, int fd, const wo_io_form
 extern "C" wo_status wo_io_oiio_exr_pixels(const char *path, int part_index, wo_io_part *part,
                                            wo_error *error)
 {
-    return wo_guard(error, __func__, [&]() -> wo_status {
-        return read_exr_part(path, part_index, part, error);
-    });
+    return wo_guard(error, __func__,
+                    [&]() -> wo_status { return read_exr_part(path, part_index, part, error); });
 }

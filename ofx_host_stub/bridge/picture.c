@@ -53,6 +53,6 @@ int wo_picture_json(const wo_picture_error *result, char *buffer, size_t size)
                     "{\"width\": %d, \"height\": %d, \"relmse\": %s, \"psnr_lin\": %s, "
                     "\"psnr\": %s, \"ssim\": %s, \"max_error\": %s, \"energy\": %s, "
                     "\"nonfinite\": 0}",
-                    (int)result->width, (int)result->height, words[0], words[1], words[2],
-                    words[3], words[4], words[5]);
+                    (int)result->width, (int)result->height, words[0], words[1], words[2], words[3],
+                    words[4], words[5]);
 }

@@ -12,9 +12,9 @@ extern "C" {
 /* Pictures compared and shown. Any thread. Images made here are y up, interleaved and tight; their
    data is malloc-ed and freed by the caller with free(). */
 
-/* How far OUT is from REF. R, G, B of all pixels count alike, alpha does not; both are scene-linear.
-   "Seen" values are clipped to 0..1 and put on the sRGB curve. Sums are made in double precision
-   and in row order, so equal pictures give equal bytes. */
+/* How far OUT is from REF. R, G, B of all pixels count alike, alpha does not; both are
+   scene-linear. "Seen" values are clipped to 0..1 and put on the sRGB curve. Sums are made in
+   double precision and in row order, so equal pictures give equal bytes. */
 typedef struct wo_picture_error {
     double relmse;     /* mean of (out - ref)^2 / (ref^2 + 0.01) */
     double psnr_lin;   /* dB, values clipped to 0..1; infinite for equal pictures */
@@ -26,13 +26,13 @@ typedef struct wo_picture_error {
     int32_t width, height; /* what was compared, pixels */
 } wo_picture_error;
 
-/* Compares two pictures of 1, 3 or 4 components (one grey counts as three equal ones) and equal size,
-   without a border of crop pixels. REF must be finite. */
+/* Compares two pictures of 1, 3 or 4 components (one grey counts as three equal ones) and equal
+   size, without a border of crop pixels. REF must be finite. */
 WO_NODISCARD wo_status wo_picture_compare(const wo_image *ref, const wo_image *out, int32_t crop,
                                           wo_picture_error *result, wo_error *error);
 
-/* Writes result as one JSON object; infinite and undefined numbers become null. Returns the length as
-   snprintf does. */
+/* Writes result as one JSON object; infinite and undefined numbers become null. Returns the length
+   as snprintf does. */
 int wo_picture_json(const wo_picture_error *result, char *buffer, size_t size);
 
 /* Changes the size; smaller by area average, larger by linear interpolation. */
@@ -70,8 +70,8 @@ typedef struct wo_picture_layout {
     int32_t cell_height;  /* 0 = by the shape of the first picture */
 } wo_picture_layout;
 
-/* A contact sheet: cells in rows from the top left, each fitted into its place with its shape kept, on
-   neutral dark grey. The result is RGB on the sRGB curve, 0..1, ready to be saved as 8 bits. */
+/* A contact sheet: cells in rows from the top left, each fitted into its place with its shape kept,
+   on neutral dark grey. The result is RGB on the sRGB curve, 0..1, ready to be saved as 8 bits. */
 WO_NODISCARD wo_status wo_picture_sheet(const wo_picture_layout *layout,
                                         const wo_picture_cell *cells, size_t count,
                                         wo_image *result, wo_error *error);

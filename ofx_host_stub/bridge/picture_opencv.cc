@@ -151,8 +151,8 @@ double mean_ssim(const cv::Mat &a, const cv::Mat &b)
             const double va = square_a.at<double>(y, x) - ma * ma;
             const double vb = square_b.at<double>(y, x) - mb * mb;
             const double vab = product.at<double>(y, x) - ma * mb;
-            row += (2 * ma * mb + c1) * (2 * vab + c2) /
-                   ((ma * ma + mb * mb + c1) * (va + vb + c2));
+            row +=
+                (2 * ma * mb + c1) * (2 * vab + c2) / ((ma * ma + mb * mb + c1) * (va + vb + c2));
         }
         total += row;
     }
@@ -175,8 +175,7 @@ wo_status compare(const wo_image *ref, const wo_image *out, int32_t crop, wo_pic
     result->height = height;
     const int64_t bad = count_nonfinite(ref, crop, width, height);
     if (bad)
-        return wo_fail(error, WO_ERR_FORMAT,
-                       "%lld samples of the reference are NaN or infinite",
+        return wo_fail(error, WO_ERR_FORMAT, "%lld samples of the reference are NaN or infinite",
                        static_cast<long long>(bad));
     result->nonfinite = count_nonfinite(out, crop, width, height);
     if (result->nonfinite)
@@ -249,8 +248,8 @@ double pixel_difference(wo_picture_difference kind, const float *ref, int ref_co
 {
     double largest = 0, luma = 0;
     for (int c = 0; c < 3; c++) {
-        const double d = wo_seen(colour_of(out, out_components, c)) -
-                         wo_seen(colour_of(ref, ref_components, c));
+        const double d =
+            wo_seen(colour_of(out, out_components, c)) - wo_seen(colour_of(ref, ref_components, c));
         largest = std::max(largest, std::abs(d));
         luma += d * luma_weights[c];
     }
@@ -322,10 +321,9 @@ wo_status show_difference(const wo_image *ref, const wo_image *out, wo_picture_d
             const double value = values.at<double>(y, x);
             const cv::Vec3f colour =
                 std::isnan(value) ? cv::Vec3f(1, 0, 1) : false_colour(kind, value / scale);
-            picture.at<cv::Vec3b>(y, x) =
-                cv::Vec3b(cv::saturate_cast<uchar>(colour[0] * 255),
-                          cv::saturate_cast<uchar>(colour[1] * 255),
-                          cv::saturate_cast<uchar>(colour[2] * 255));
+            picture.at<cv::Vec3b>(y, x) = cv::Vec3b(cv::saturate_cast<uchar>(colour[0] * 255),
+                                                    cv::saturate_cast<uchar>(colour[1] * 255),
+                                                    cv::saturate_cast<uchar>(colour[2] * 255));
         }
     cv::Mat scale_bar = picture.rowRange(values.rows, values.rows + bar);
     draw_scale(scale_bar, kind, scale);

@@ -103,8 +103,8 @@ Grid plan_grid(const wo_picture_layout *layout, const wo_picture_cell *cells, si
 {
     Grid grid = {};
     const wo_image *const first = first_picture(cells, count);
-    const double shape = first ? double(wo_rect_height(first->bounds)) / wo_rect_width(first->bounds)
-                               : 9.0 / 16;
+    const double shape =
+        first ? double(wo_rect_height(first->bounds)) / wo_rect_width(first->bounds) : 9.0 / 16;
     grid.cell_width = layout->cell_width > 0 ? layout->cell_width : 480;
     grid.cell_height =
         layout->cell_height > 0
@@ -130,7 +130,7 @@ void make_visible(cv::Mat &mat, bool linear)
     for (int y = 0; y < mat.rows; y++) {
         auto *const row = mat.ptr<float>(y);
         for (int i = 0; i < samples; i++)
-            row[i] = linear            ? static_cast<float>(wo_seen(static_cast<double>(row[i])))
+            row[i] = linear           ? static_cast<float>(wo_seen(static_cast<double>(row[i])))
                      : row[i] >= 0.0f ? std::min(row[i], 1.0f)
                                       : 0.0f;
     }
@@ -145,8 +145,7 @@ cv::Mat fitted(const wo_picture_cell &cell, int most_width, int most_height)
     make_visible(mat, cell.linear);
     if (mat.channels() == 1)
         cv::cvtColor(mat, mat, cv::COLOR_GRAY2RGB);
-    const double factor =
-        std::min(double(most_width) / mat.cols, double(most_height) / mat.rows);
+    const double factor = std::min(double(most_width) / mat.cols, double(most_height) / mat.rows);
     const int width = std::clamp(static_cast<int>(std::lround(mat.cols * factor)), 1, most_width);
     const int height = std::clamp(static_cast<int>(std::lround(mat.rows * factor)), 1, most_height);
     cv::Mat result;
@@ -163,15 +162,15 @@ void draw_cell(cv::Mat &sheet, const Grid &grid, const wo_picture_cell &cell, si
     sheet(cv::Rect(x, y, grid.cell_width, grid.cell_height)).setTo(place);
     if (cell.image && cell.image->data) {
         const cv::Mat picture = fitted(cell, grid.cell_width, grid.cell_height);
-        picture.copyTo(sheet(cv::Rect(x + (grid.cell_width - picture.cols) / 2,
-                                      y + (grid.cell_height - picture.rows) / 2, picture.cols,
-                                      picture.rows)));
+        picture.copyTo(
+            sheet(cv::Rect(x + (grid.cell_width - picture.cols) / 2,
+                           y + (grid.cell_height - picture.rows) / 2, picture.cols, picture.rows)));
     }
     int line_y = y + grid.cell_height + grid.letter + grid.letter / 4;
     for (int line = 0; line < 2; line++)
         if (cell.caption[line] && cell.caption[line][0]) {
-            wo_draw_text(sheet, cell.caption[line], x + 2, line_y, grid.letter,
-                         grid.cell_width - 4, line ? dim : bright);
+            wo_draw_text(sheet, cell.caption[line], x + 2, line_y, grid.letter, grid.cell_width - 4,
+                         line ? dim : bright);
             line_y += 2 * grid.letter;
         }
 }
@@ -198,8 +197,8 @@ wo_status draw_sheet(const wo_picture_layout *layout, const wo_picture_cell *cel
     const Grid grid = plan_grid(layout, cells, count);
     if (grid.width() > WO_MAX_SIDE || grid.height() > WO_MAX_SIDE)
         return wo_fail(error, WO_ERR_RANGE, "a sheet of %lld x %lld pixels, but %d a side fit",
-                       static_cast<long long>(grid.width()),
-                       static_cast<long long>(grid.height()), WO_MAX_SIDE);
+                       static_cast<long long>(grid.width()), static_cast<long long>(grid.height()),
+                       WO_MAX_SIDE);
     cv::Mat sheet(static_cast<int>(grid.height()), static_cast<int>(grid.width()), CV_8UC3, paper);
     const int inside = sheet.cols - 2 * grid.gap;
     int y = grid.gap + grid.letter;
@@ -216,9 +215,8 @@ wo_status draw_sheet(const wo_picture_layout *layout, const wo_picture_cell *cel
 
 } // namespace
 
-extern "C" wo_status wo_picture_sheet(const wo_picture_layout *layout,
-                                      const wo_picture_cell *cells, size_t count, wo_image *result,
-                                      wo_error *error)
+extern "C" wo_status wo_picture_sheet(const wo_picture_layout *layout, const wo_picture_cell *cells,
+                                      size_t count, wo_image *result, wo_error *error)
 {
     return wo_guard(error, __func__, [&]() -> wo_status {
         *result = {};

@@ -8,9 +8,8 @@
    time multiplied. Times are the best of several, planning included unless it says rays. */
 #include "blur_footage.h"
 #include "effects/lens_blur_plan.h"
+#include "tests/property/scenes.h"
 
-#include <pthread.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,57 +17,17 @@
 
 enum { TWIN_PART = 16, REPEATS = 3, THREADS_MAX = 256 };
 
-typedef struct job {
-    void (*func)(void *job, size_t index, unsigned worker);
-    void *user;
-    size_t count;
-    atomic_size_t next;
-} job;
-
-typedef struct worker {
-    job *work;
-    unsigned number;
-} worker;
-
-static void *work(void *user)
-{
-    const worker *w = user;
-    for (size_t i; (i = atomic_fetch_add(&w->work->next, 1)) < w->work->count;)
-        w->work->func(w->work->user, i, w->number);
-    return NULL;
-}
-
-static unsigned workers(void *user)
-{
-    return *(const unsigned *)user;
-}
-
-static void run(void *user, void (*func)(void *, size_t, unsigned), void *data, size_t count)
-{
-    const unsigned n = workers(user);
-    pthread_t threads[THREADS_MAX];
-    worker each[THREADS_MAX];
-    job shared = {.func = func, .user = data, .count = count};
-    for (unsigned i = 0; i < n; i++) {
-        each[i] = (worker){&shared, i};
-        if (pthread_create(&threads[i], NULL, work, &each[i]) != 0)
-            abort();
-    }
-    for (unsigned i = 0; i < n; i++)
-        pthread_join(threads[i], NULL);
-}
-
 static void stop(const wo_error *error)
 {
     fprintf(stderr, "bench_lens_blur: %s\n", error->text);
     exit(1);
 }
 
-static wo_footage *make(const wo_context *context, const char *scene, int width, int height)
+static wo_footage *make(const wo_context *context, const char *name, int width, int height)
 {
     wo_footage *set = NULL;
     wo_error error = {0};
-    const wo_footage_options options = {.scene = scene, .width = width, .height = height,
+    const wo_footage_options options = {.scene = name, .width = width, .height = height,
                                         .samples = 16, .layers = 4};
     if (wo_footage_make(context, &options, &set, &error) != WO_OK)
         stop(&error);
@@ -155,12 +114,12 @@ static double measure_twin(const wo_context *context, const wo_footage *set, int
     return seconds;
 }
 
-static void row(const char *scene, const wo_footage *set, int layers, int samples, timing t)
+static void row(const char *name, const wo_footage *set, int layers, int samples, timing t)
 {
     char given[24] = "source+depth";
     if (layers > 0)
         snprintf(given, sizeof given, "%d layers", layers);
-    printf("%-12s %5d x %-5d %-13s %5d rays %8.3f s %8.3f s rays %7.1f M rays/s\n", scene,
+    printf("%-12s %5d x %-5d %-13s %5d rays %8.3f s %8.3f s rays %7.1f M rays/s\n", name,
            wo_rect_width(set->colour.bounds), wo_rect_height(set->colour.bounds), given, samples,
            t.total, t.render, t.rays / t.render / 1e6);
     fflush(stdout);
@@ -169,12 +128,12 @@ static void row(const char *scene, const wo_footage *set, int layers, int sample
 int main(int argc, char **argv)
 {
     unsigned threads = (unsigned)sysconf(_SC_NPROCESSORS_ONLN);
-    const char *scene = "still-life";
+    const char *name = "still-life";
     for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "--threads") == 0 && i + 1 < argc) {
             threads = (unsigned)strtoul(argv[++i], NULL, 10);
         } else if (strcmp(argv[i], "--scene") == 0 && i + 1 < argc) {
-            scene = argv[++i];
+            name = argv[++i];
         } else {
             fprintf(stderr, "usage: bench_lens_blur [--threads N] [--scene NAME]\n");
             return 2;
@@ -183,28 +142,28 @@ int main(int argc, char **argv)
     if (threads < 1 || threads > THREADS_MAX)
         threads = 1;
     wo_context context = WO_CONTEXT_INIT;
-    context.runner = (wo_runner){&threads, workers, run};
-    wo_footage *hd = make(&context, scene, 1920, 1080);
+    context.runner = threads_runner(&threads);
+    wo_footage *hd = make(&context, name, 1920, 1080);
     printf("%u threads, %s\n", threads,
            wo_cpu_detect(WO_CPU_AUTO) & WO_CPU_AVX2 ? "AVX2" : "plain kernels");
 
     static const int samples[] = {16, 64, 256};
     static const int layers[] = {0, 1, 2, 4};
     for (size_t i = 0; i < WO_COUNT(layers); i++)
-        row(scene, hd, layers[i], 64, measure(&context, hd, layers[i], 64));
+        row(name, hd, layers[i], 64, measure(&context, hd, layers[i], 64));
     for (size_t i = 0; i < WO_COUNT(samples); i++)
-        row(scene, hd, 2, samples[i], measure(&context, hd, 2, samples[i]));
+        row(name, hd, 2, samples[i], measure(&context, hd, 2, samples[i]));
     static const int sizes[][2] = {{960, 540}, {1920, 1080}, {3840, 2160}};
     for (size_t i = 0; i < WO_COUNT(sizes); i++) {
-        wo_footage *set = make(&context, scene, sizes[i][0], sizes[i][1]);
-        row(scene, set, 2, 64, measure(&context, set, 2, 64));
+        wo_footage *set = make(&context, name, sizes[i][0], sizes[i][1]);
+        row(name, set, 2, 64, measure(&context, set, 2, 64));
         wo_footage_destroy(&context, &set);
     }
     wo_context base = context;
     base.cpu = WO_CPU_BASE;
     const timing plain = measure(&base, hd, 2, 64);
     printf("plain kernels:");
-    row(scene, hd, 2, 64, plain);
+    row(name, hd, 2, 64, plain);
 
     const timing fast = measure(&context, hd, 2, 64);
     const double slow = measure_twin(&context, hd, 2, 64);

@@ -64,7 +64,7 @@ static void opaque_stays_opaque(void **state)
         scene s;
         scene_init(&s, frame);
         scene_px_per_dioptre(&s, i % 2 ? 12 : 60);
-        s.params.samples = i < 6 ? 33 : 700;
+        s.params.samples = i < 6 ? 33 : 300;
         if (i & 2) /* the second layer is opaque behind the holes of the first */
             scene_fill_layers(&s, i);
         else

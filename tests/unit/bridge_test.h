@@ -83,7 +83,7 @@ static inline int empty_folder(void **state)
         fault.text[0] = '\0';                                                                      \
         const wo_status got = (call);                                                              \
         if (got != (expected) || !strstr(fault.text, words))                                       \
-            fail_msg("%s, \"%s\" instead of %s, \"%s\"", wo_status_text(got), fault.text,           \
+            fail_msg("%s, \"%s\" instead of %s, \"%s\"", wo_status_text(got), fault.text,          \
                      wo_status_text(expected), words);                                             \
     } while (0)
 

@@ -45,8 +45,8 @@ static void assert_converts(const char *from, const char *to, const double given
 static void names_are_listed(void **state)
 {
     (void)state;
-    static const char *const wanted[] = {"lin_rec709",     "ACEScg", "ACES2065-1",
-                                         "lin_p3d65",      "sRGB",   "Rec.709 camera",
+    static const char *const wanted[] = {"lin_rec709",      "ACEScg", "ACES2065-1",
+                                         "lin_p3d65",       "sRGB",   "Rec.709 camera",
                                          "Rec.709 BT.1886", "Cineon", "raw"};
     char displays[256];
     assert_string_equal(wo_colour_origin(colour), "built in");
@@ -78,8 +78,7 @@ static void curves(void **state)
     assert_converts("Rec.709 camera", linear, RGB(0.5, 0.0405, 1), RGB(0.2595894, 0.009, 1), 3e-5);
     assert_converts("Rec.709 BT.1886", linear, RGB(0.5, -0.5, 1), RGB(0.18946457, -0.18946457, 1),
                     1e-6);
-    assert_converts("Cineon", linear, RGB(685.0 / 1023, 95.0 / 1023, 1), RGB(1, 0, 13.52169),
-                    1e-4);
+    assert_converts("Cineon", linear, RGB(685.0 / 1023, 95.0 / 1023, 1), RGB(1, 0, 13.52169), 1e-4);
     assert_converts(linear, "sRGB", RGB(0.18, 0.0031308, 5), RGB(0.46135613, 0.04045, 2.00796),
                     1e-4);
 }
@@ -105,14 +104,15 @@ static void primaries(void **state)
 static void round_trips(void **state)
 {
     (void)state;
-    static const char *const spaces[] = {"lin_rec709", "ACEScg",         "ACES2065-1",     "lin_p3d65",
-                                         "sRGB",       "Rec.709 camera", "Rec.709 BT.1886", "Cineon"};
+    static const char *const spaces[] = {"lin_rec709",      "ACEScg", "ACES2065-1",
+                                         "lin_p3d65",       "sRGB",   "Rec.709 camera",
+                                         "Rec.709 BT.1886", "Cineon"};
     for (size_t a = 0; a < WO_COUNT(spaces); a++)
         for (size_t b = 0; b < WO_COUNT(spaces); b++) {
             float pixels[40 * 3], before[40 * 3];
             for (int i = 0; i < 120; i++)
-                before[i] = pixels[i] = 0.18f * powf(2, (float)(i / 3) / 3 - 7) *
-                                        (0.5f + noise((uint32_t)i));
+                before[i] = pixels[i] =
+                    0.18f * powf(2, (float)(i / 3) / 3 - 7) * (0.5f + noise((uint32_t)i));
             wo_image image = picture(pixels, 40, 1, 3);
             assert_ok(wo_colour_convert(colour, WO_COLOUR_WORKING, spaces[a], &image, &fault));
             assert_ok(wo_colour_convert(colour, spaces[a], spaces[b], &image, &fault));
@@ -180,8 +180,10 @@ static void rows_may_be_anywhere(void **state)
     float memory[H * ROW];
     for (int i = 0; i < H * ROW; i++)
         memory[i] = 0.5f;
-    wo_image image = {.data = memory + (H - 1) * ROW, .bounds = {-2, 9, -2 + W, 9 + H},
-                      .row_bytes = -(ptrdiff_t)(ROW * sizeof(float)), .components = 3};
+    wo_image image = {.data = memory + (H - 1) * ROW,
+                      .bounds = {-2, 9, -2 + W, 9 + H},
+                      .row_bytes = -(ptrdiff_t)(ROW * sizeof(float)),
+                      .components = 3};
     assert_ok(wo_colour_convert(colour, "sRGB", "lin_rec709", &image, &fault));
     for (int i = 0; i < H * ROW; i++)
         assert_float_equal(memory[i], (i % ROW < W * 3 ? 0.21404114f : 0.5f), 1e-6f);
@@ -193,19 +195,27 @@ static void files_have_spaces(void **state)
     static const struct {
         const char *path, *says, *wanted;
     } cases[] = {
-        {"/a/b.exr", NULL, "lin_rec709"},        {"B.EXR", "", "lin_rec709"},
-        {"x.hdr", "linear", "lin_rec709"},       {"x.png", "sRGB", "sRGB"},
-        {"x.jpeg", NULL, "sRGB"},                {"x.JPG", NULL, "sRGB"},
-        {"x.tif", NULL, "sRGB"},                 {"x.tiff", "Linear", "lin_rec709"},
-        {"x.ppm", NULL, "sRGB"},                 {"x.dpx", NULL, "Cineon"},
-        {"x.dpx", "Rec709", "Rec.709 camera"},   {"x.cin", "KodakLog", "Cineon"},
-        {"x.exr", "lin_ap1_scene", "ACEScg"},    {"x.exr", "something else", "lin_rec709"},
-        {"no extension", NULL, "lin_rec709"},    {"exr.png/x.exr", NULL, "lin_rec709"},
+        {"/a/b.exr", NULL, "lin_rec709"},
+        {"B.EXR", "", "lin_rec709"},
+        {"x.hdr", "linear", "lin_rec709"},
+        {"x.png", "sRGB", "sRGB"},
+        {"x.jpeg", NULL, "sRGB"},
+        {"x.JPG", NULL, "sRGB"},
+        {"x.tif", NULL, "sRGB"},
+        {"x.tiff", "Linear", "lin_rec709"},
+        {"x.ppm", NULL, "sRGB"},
+        {"x.dpx", NULL, "Cineon"},
+        {"x.dpx", "Rec709", "Rec.709 camera"},
+        {"x.cin", "KodakLog", "Cineon"},
+        {"x.exr", "lin_ap1_scene", "ACEScg"},
+        {"x.exr", "something else", "lin_rec709"},
+        {"no extension", NULL, "lin_rec709"},
+        {"exr.png/x.exr", NULL, "lin_rec709"},
     };
     char name[64];
     for (size_t i = 0; i < WO_COUNT(cases); i++) {
-        assert_ok(wo_colour_of_file(colour, cases[i].path, cases[i].says, name, sizeof name,
-                                    &fault));
+        assert_ok(
+            wo_colour_of_file(colour, cases[i].path, cases[i].says, name, sizeof name, &fault));
         if (strcmp(name, cases[i].wanted))
             fail_msg("%s is %s", cases[i].path, name);
     }
@@ -230,8 +240,8 @@ static void views(void **state)
             light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055;
         float grey[3] = {(float)light, (float)light, (float)light};
         image = picture(grey, 1, 1, 3);
-        assert_ok(wo_colour_display(colour, "scene_linear", "sRGB", "Soft highlights", &image,
-                                    &fault));
+        assert_ok(
+            wo_colour_display(colour, "scene_linear", "sRGB", "Soft highlights", &image, &fault));
         const double shown = (double)grey[1];
         if (!(shown >= last - 1e-6 && shown >= 0 && shown <= 1))
             fail_msg("light %g is shown as %g after %g", light, shown, last);
@@ -315,11 +325,16 @@ static void other_configurations(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names_are_listed),   cmocka_unit_test(curves),
-        cmocka_unit_test(primaries),          cmocka_unit_test(round_trips),
-        cmocka_unit_test(alpha_is_respected), cmocka_unit_test(data_is_left_alone),
-        cmocka_unit_test(rows_may_be_anywhere), cmocka_unit_test(files_have_spaces),
-        cmocka_unit_test(views),              cmocka_unit_test(unknown_names),
+        cmocka_unit_test(names_are_listed),
+        cmocka_unit_test(curves),
+        cmocka_unit_test(primaries),
+        cmocka_unit_test(round_trips),
+        cmocka_unit_test(alpha_is_respected),
+        cmocka_unit_test(data_is_left_alone),
+        cmocka_unit_test(rows_may_be_anywhere),
+        cmocka_unit_test(files_have_spaces),
+        cmocka_unit_test(views),
+        cmocka_unit_test(unknown_names),
         cmocka_unit_test(other_configurations),
     };
     return cmocka_run_group_tests(tests, open_own, close_own);

@@ -46,12 +46,12 @@ static unsigned char *make_file(size_t kind, const char **name, size_t *size)
         wo_io_depth depth;
         int width, height;
     } kinds[] = {
-        {"a.exr", "zip", WO_IO_HALF, 19, 21},   {"a.exr", "none", WO_IO_SINGLE, 5, 7},
-        {"a.exr", "piz", WO_IO_HALF, 19, 40},   {"a.exr", "rle", WO_IO_HALF, 9, 4},
-        {"a.exr", "zips", WO_IO_SINGLE, 9, 3},  {"a.png", "", WO_IO_AUTO, 19, 21},
-        {"a.tif", "", WO_IO_AUTO, 19, 21},      {"a.dpx", "", WO_IO_AUTO, 19, 21},
-        {"a.jpg", "", WO_IO_AUTO, 40, 40},      {"a.hdr", "", WO_IO_AUTO, 19, 21},
-        {"a.tga", "", WO_IO_AUTO, 19, 21},      {"a.bmp", "", WO_IO_AUTO, 19, 21},
+        {"a.exr", "zip", WO_IO_HALF, 19, 21},  {"a.exr", "none", WO_IO_SINGLE, 5, 7},
+        {"a.exr", "piz", WO_IO_HALF, 19, 40},  {"a.exr", "rle", WO_IO_HALF, 9, 4},
+        {"a.exr", "zips", WO_IO_SINGLE, 9, 3}, {"a.png", "", WO_IO_AUTO, 19, 21},
+        {"a.tif", "", WO_IO_AUTO, 19, 21},     {"a.dpx", "", WO_IO_AUTO, 19, 21},
+        {"a.jpg", "", WO_IO_AUTO, 40, 40},     {"a.hdr", "", WO_IO_AUTO, 19, 21},
+        {"a.tga", "", WO_IO_AUTO, 19, 21},     {"a.bmp", "", WO_IO_AUTO, 19, 21},
         {"a.ppm", "", WO_IO_AUTO, 19, 21},
     };
     static const struct {
@@ -140,8 +140,9 @@ static void spoilt_files(void **state)
 static void garbage(void **state)
 {
     (void)state;
-    static const char *const names[] = {"a.exr", "a.png", "a.tif", "a.dpx", "a.jpg", "a.hdr", "a.tga",
-                                        "a.bmp", "a.ppm", "a.cin", "a.webp", "a.jp2", "a.foo"};
+    static const char *const names[] = {"a.exr",  "a.png", "a.tif", "a.dpx", "a.jpg",
+                                        "a.hdr",  "a.tga", "a.bmp", "a.ppm", "a.cin",
+                                        "a.webp", "a.jp2", "a.foo"};
     unsigned char bytes[3000];
     for (size_t i = 0; i < sizeof bytes; i++)
         bytes[i] = (unsigned char)(noise((uint32_t)i) * 256);
@@ -165,7 +166,8 @@ static void garbage(void **state)
 }
 
 /* Overwrites four numbers after a name in an EXR header. */
-static void patch_box(unsigned char *bytes, size_t size, const char *attribute, const int32_t box[4])
+static void patch_box(unsigned char *bytes, size_t size, const char *attribute,
+                      const int32_t box[4])
 {
     const size_t length = strlen(attribute) + 1;
     for (size_t i = 0; i + length + 26 < size; i++)
@@ -212,9 +214,9 @@ static void absurd_sizes(void **state)
     free(bytes);
 
     /* a PNG header of 65000 x 65000 and nothing behind it */
-    static const unsigned char png[] = {0x89, 'P', 'N', 'G', 13, 10, 26, 10, 0, 0, 0, 13,
-                                        'I', 'H', 'D', 'R', 0, 0, 0xfd, 0xe8, 0, 0, 0xfd, 0xe8,
-                                        8, 6, 0, 0, 0, 0x9c, 0xaf, 0x24, 0x2c};
+    static const unsigned char png[] = {0x89, 'P',  'N', 'G', 13,  10, 26, 10,   0,    0,    0,
+                                        13,   'I',  'H', 'D', 'R', 0,  0,  0xfd, 0xe8, 0,    0,
+                                        0xfd, 0xe8, 8,   6,   0,   0,  0,  0x9c, 0xaf, 0x24, 0x2c};
     write_bytes(in_folder("a.png"), png, sizeof png);
     assert_int_equal(try_read("a.png"), WO_ERR_FORMAT);
 }
@@ -234,7 +236,8 @@ static void places_that_are_none(void **state)
     assert_fault(wo_io_read(test_folder, false, &file, &fault), WO_ERR_IO, "no ordinary file");
     assert_fault(wo_io_read("", false, &file, &fault), WO_ERR_ARGUMENT, "no file name");
     assert_fault(wo_io_read(NULL, false, &file, &fault), WO_ERR_ARGUMENT, "no file name");
-    assert_fault(wo_io_read(long_path, false, &file, &fault), WO_ERR_IO, ".exr: File name too long");
+    assert_fault(wo_io_read(long_path, false, &file, &fault), WO_ERR_IO,
+                 ".exr: File name too long");
     assert_int_equal(mkfifo(in_folder("pipe.exr"), 0600), 0);
     assert_fault(wo_io_read(in_folder("pipe.exr"), false, &file, &fault), WO_ERR_IO,
                  "no ordinary file");
@@ -289,8 +292,8 @@ static void protected_folder(void **state)
 static void full_disk(void **state)
 {
     (void)state;
-    static const char *const names[] = {"a.exr", "a.png", "a.tif", "a.dpx", "a.jpg", "a.hdr", "a.tga",
-                                        "a.bmp", "a.ppm"};
+    static const char *const names[] = {"a.exr", "a.png", "a.tif", "a.dpx", "a.jpg",
+                                        "a.hdr", "a.tga", "a.bmp", "a.ppm"};
     struct rlimit before, tight;
     signal(SIGXFSZ, SIG_IGN);
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -306,12 +309,11 @@ static void full_disk(void **state)
             tight = before;
             tight.rlim_cur = limit;
             assert_int_equal(setrlimit(RLIMIT_FSIZE, &tight), 0);
-            const wo_status got =
-                wo_io_write(in_folder(names[i]), &part, 1, WO_IO_AUTO, &fault);
+            const wo_status got = wo_io_write(in_folder(names[i]), &part, 1, WO_IO_AUTO, &fault);
             assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
             if (got != WO_ERR_IO || !strstr(fault.text, "File too large"))
-                fail_msg("%s, %zu of %zu bytes: %s, %s", names[i], limit, full,
-                         wo_status_text(got), fault.text);
+                fail_msg("%s, %zu of %zu bytes: %s, %s", names[i], limit, full, wo_status_text(got),
+                         fault.text);
             size_t now;
             bytes = read_bytes(in_folder(names[i]), &now);
             assert_int_equal(now, size);
@@ -387,15 +389,9 @@ int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup(name, empty_folder)
     const struct CMUnitTest tests[] = {
-        TEST(cut_files),
-        TEST(spoilt_files),
-        TEST(garbage),
-        TEST(absurd_sizes),
-        TEST(places_that_are_none),
-        TEST(protected_folder),
-        TEST(full_disk),
-        TEST(older_files),
-        TEST(no_error_is_wanted),
+        TEST(cut_files),    TEST(spoilt_files),         TEST(garbage),
+        TEST(absurd_sizes), TEST(places_that_are_none), TEST(protected_folder),
+        TEST(full_disk),    TEST(older_files),          TEST(no_error_is_wanted),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -26,18 +26,30 @@ static void formats_round_trip(void **state)
         int channels, back, bits;
         double tolerance;
     } cases[] = {
-        {"a.png", WO_IO_AUTO, 3, 3, 8, 0.5 / 255},    {"a.png", WO_IO_AUTO, 4, 4, 8, 0.5 / 255},
-        {"a.png", WO_IO_AUTO, 1, 1, 8, 0.5 / 255},    {"a.png", WO_IO_AUTO, 2, 2, 8, 0.5 / 255},
-        {"a.png", WO_IO_SHORT, 4, 4, 16, 0.5 / 65535}, {"a.png", WO_IO_BYTE, 4, 4, 8, 0.5 / 255},
-        {"a.tif", WO_IO_AUTO, 4, 4, 16, 0.5 / 65535}, {"a.tif", WO_IO_BYTE, 3, 3, 8, 0.5 / 255},
-        {"a.tiff", WO_IO_SINGLE, 4, 4, 32, 0},        {"a.tif", WO_IO_SINGLE, 1, 1, 32, 0},
-        {"a.dpx", WO_IO_AUTO, 3, 3, 10, 0.51 / 1023}, {"a.dpx", WO_IO_SHORT, 4, 4, 16, 0.5 / 65535},
-        {"a.dpx", WO_IO_BYTE, 3, 3, 8, 0.5 / 255},    {"a.dpx", WO_IO_AUTO, 1, 1, 10, 0.51 / 1023},
-        {"a.hdr", WO_IO_AUTO, 3, 3, 32, 0.005},       {"a.tga", WO_IO_AUTO, 4, 4, 8, 0.5 / 255},
-        {"a.tga", WO_IO_AUTO, 3, 3, 8, 0.5 / 255},    {"a.bmp", WO_IO_AUTO, 3, 3, 8, 0.5 / 255},
-        {"a.ppm", WO_IO_AUTO, 3, 3, 8, 0.5 / 255},    {"a.tif", WO_IO_SHORT, 3, 3, 16, 0.5 / 65535},
-        {"a.jpg", WO_IO_AUTO, 3, 3, 8, 0.06},         {"A.JPEG", WO_IO_AUTO, 1, 1, 8, 0.03},
-        {"a.jpg", WO_IO_AUTO, 4, 3, 8, 0.06},         {"a.bmp", WO_IO_AUTO, 4, 3, 8, 0.5 / 255},
+        {"a.png", WO_IO_AUTO, 3, 3, 8, 0.5 / 255},
+        {"a.png", WO_IO_AUTO, 4, 4, 8, 0.5 / 255},
+        {"a.png", WO_IO_AUTO, 1, 1, 8, 0.5 / 255},
+        {"a.png", WO_IO_AUTO, 2, 2, 8, 0.5 / 255},
+        {"a.png", WO_IO_SHORT, 4, 4, 16, 0.5 / 65535},
+        {"a.png", WO_IO_BYTE, 4, 4, 8, 0.5 / 255},
+        {"a.tif", WO_IO_AUTO, 4, 4, 16, 0.5 / 65535},
+        {"a.tif", WO_IO_BYTE, 3, 3, 8, 0.5 / 255},
+        {"a.tiff", WO_IO_SINGLE, 4, 4, 32, 0},
+        {"a.tif", WO_IO_SINGLE, 1, 1, 32, 0},
+        {"a.dpx", WO_IO_AUTO, 3, 3, 10, 0.51 / 1023},
+        {"a.dpx", WO_IO_SHORT, 4, 4, 16, 0.5 / 65535},
+        {"a.dpx", WO_IO_BYTE, 3, 3, 8, 0.5 / 255},
+        {"a.dpx", WO_IO_AUTO, 1, 1, 10, 0.51 / 1023},
+        {"a.hdr", WO_IO_AUTO, 3, 3, 32, 0.005},
+        {"a.tga", WO_IO_AUTO, 4, 4, 8, 0.5 / 255},
+        {"a.tga", WO_IO_AUTO, 3, 3, 8, 0.5 / 255},
+        {"a.bmp", WO_IO_AUTO, 3, 3, 8, 0.5 / 255},
+        {"a.ppm", WO_IO_AUTO, 3, 3, 8, 0.5 / 255},
+        {"a.tif", WO_IO_SHORT, 3, 3, 16, 0.5 / 65535},
+        {"a.jpg", WO_IO_AUTO, 3, 3, 8, 0.06},
+        {"A.JPEG", WO_IO_AUTO, 1, 1, 8, 0.03},
+        {"a.jpg", WO_IO_AUTO, 4, 3, 8, 0.06},
+        {"a.bmp", WO_IO_AUTO, 4, 3, 8, 0.5 / 255},
         {"a.hdr", WO_IO_AUTO, 1, 3, 32, 0.005},
     };
     const wo_rect frame = {0, 0, 33, 17};
@@ -47,8 +59,9 @@ static void formats_round_trip(void **state)
         for (int y = 0; y < 17; y++)
             for (int x = 0; x < 33; x++)
                 for (int c = 0; c < cases[i].channels; c++)
-                    *sample_at(&part, x, y, c) =
-                        c == 1 ? (float)y / 16 : c == 3 ? 1 - (float)x / 64 : (float)x / 32;
+                    *sample_at(&part, x, y, c) = c == 1   ? (float)y / 16
+                                                 : c == 3 ? 1 - (float)x / 64
+                                                          : (float)x / 32;
         assert_ok(wo_io_write(in_folder(cases[i].name), &part, 1, cases[i].depth, &fault));
         assert_ok(wo_io_read(in_folder(cases[i].name), false, &file, &fault));
         const wo_io_part *const back = &file->parts[0];
@@ -80,8 +93,8 @@ static void integers_are_rounded(void **state)
         const char *name;
         wo_io_depth depth;
         double steps, slack; /* slack: the library's own widening of 10 bits to 16 */
-    } cases[] = {{"a.png", WO_IO_BYTE, 255, 1e-6},   {"a.png", WO_IO_SHORT, 65535, 1e-6},
-                 {"a.tif", WO_IO_BYTE, 255, 1e-6},   {"a.dpx", WO_IO_AUTO, 1023, 0.016},
+    } cases[] = {{"a.png", WO_IO_BYTE, 255, 1e-6},    {"a.png", WO_IO_SHORT, 65535, 1e-6},
+                 {"a.tif", WO_IO_BYTE, 255, 1e-6},    {"a.dpx", WO_IO_AUTO, 1023, 0.016},
                  {"a.dpx", WO_IO_SHORT, 65535, 1e-6}, {"a.tga", WO_IO_BYTE, 255, 1e-6}};
     const wo_rect frame = {0, 0, 500, 20};
     for (size_t i = 0; i < WO_COUNT(cases); i++) {
@@ -155,8 +168,8 @@ static void alpha_multiplies(void **state)
 {
     (void)state;
     float pixels[12] = {1, 0.5f, 0.25f, 0.5f, 1, 2, 3, 0, 4, 5, 6, 1};
-    wo_image image = {.data = pixels, .bounds = {0, 0, 3, 1}, .row_bytes = sizeof pixels,
-                      .components = 4};
+    wo_image image = {
+        .data = pixels, .bounds = {0, 0, 3, 1}, .row_bytes = sizeof pixels, .components = 4};
     static const float once[12] = {0.5f, 0.25f, 0.125f, 0.5f, 0, 0, 0, 0, 4, 5, 6, 1};
     static const float again[12] = {1, 0.5f, 0.25f, 0.5f, 0, 0, 0, 0, 4, 5, 6, 1};
     wo_io_premultiply(&image);
@@ -238,16 +251,31 @@ static void requests_that_cannot_be(void **state)
 /* A file of two parts with many layers, to choose from. */
 static wo_io_file *layered_file(void)
 {
-    static const char *const first[] = {"R", "G", "B", "A", "Z", "diffuse.R", "diffuse.G",
-                                        "diffuse.B", "N.X", "N.Y", "N.Z", "id", "uv.u", "uv.v",
-                                        "View.Combined.R", "View.Combined.G", "View.Combined.B",
-                                        "View.Combined.A", "depth.Z"};
+    static const char *const first[] = {"R",
+                                        "G",
+                                        "B",
+                                        "A",
+                                        "Z",
+                                        "diffuse.R",
+                                        "diffuse.G",
+                                        "diffuse.B",
+                                        "N.X",
+                                        "N.Y",
+                                        "N.Z",
+                                        "id",
+                                        "uv.u",
+                                        "uv.v",
+                                        "View.Combined.R",
+                                        "View.Combined.G",
+                                        "View.Combined.B",
+                                        "View.Combined.A",
+                                        "depth.Z"};
     static const char *const second[] = {"Z"};
     const wo_rect frame = {0, 0, 3, 2}, inner = {1, 0, 3, 2};
     wo_io_file *file = NULL;
     assert_ok(wo_io_file_create(2, &file, &fault));
-    assert_ok(wo_io_part_init(&file->parts[0], "beauty", frame, frame, first, WO_COUNT(first),
-                              &fault));
+    assert_ok(
+        wo_io_part_init(&file->parts[0], "beauty", frame, frame, first, WO_COUNT(first), &fault));
     assert_ok(wo_io_part_init(&file->parts[1], "far:away", inner, frame, second, 1, &fault));
     for (int i = 0; i < 6 * (int)WO_COUNT(first); i++)
         file->parts[0].pixels[i] = (float)(i % (int)WO_COUNT(first));
@@ -305,8 +333,8 @@ static void channels_are_chosen(void **state)
 static void unknown_channels_are_explained(void **state)
 {
     (void)state;
-    static const char *const words[] = {"Q", "R,Q", "beauty:Q", "far:away:R", ",", "R,,B", "R,", ":",
-                                        "nobody:Z", "0"};
+    static const char *const words[] = {"Q",    "R,Q", "beauty:Q", "far:away:R", ",",
+                                        "R,,B", "R,",  ":",        "nobody:Z",   "0"};
     wo_io_file *file = layered_file();
     wo_image image;
     for (size_t i = 0; i < WO_COUNT(words); i++) {
@@ -353,8 +381,7 @@ static void defaults_are_sensible(void **state)
             file->parts[0].pixels[c] = (float)c;
         assert_ok(wo_io_select(file, NULL, &image, NULL, &fault));
         if (image.components != cases[i].wanted || image.data[0] != (float)cases[i].first)
-            fail_msg("case %zu: %d components from %g", i, image.components,
-                     (double)image.data[0]);
+            fail_msg("case %zu: %d components from %g", i, image.components, (double)image.data[0]);
         free(image.data);
         assert_ok(wo_io_select(file, "0", &image, NULL, &fault)); /* a part without a name */
         free(image.data);
@@ -399,14 +426,22 @@ static void frames_make_paths(void **state)
         const char *wanted;
         bool sequence;
     } cases[] = {
-        {"a.%04d.exr", 7, "a.0007.exr", true},     {"a.####.exr", 1001, "a.1001.exr", true},
-        {"a.%d.exr", 12, "a.12.exr", true},        {"a.##.exr", 123, "a.123.exr", true},
-        {"a.%4d.exr", 7, "a.7.exr", true},         {"a.%04d.exr", -5, "a.-005.exr", true},
-        {"a.exr", 7, "a.exr", false},              {"a#1.exr", 7, "a#1.exr", false},
-        {"100%.exr", 7, "100%.exr", false},        {"a%s.exr", 7, "a%s.exr", false},
-        {"%n%04d%x", 7, "%n0007%x", true},         {"%03d/a.###.exr", 7, "007/a.007.exr", true},
-        {"a.%012d.exr", 7, "a.%012d.exr", false},  {"", 7, "", false},
-        {"%", 1, "%", false},                      {"a.%04d", 2147483647, "a.2147483647", true},
+        {"a.%04d.exr", 7, "a.0007.exr", true},
+        {"a.####.exr", 1001, "a.1001.exr", true},
+        {"a.%d.exr", 12, "a.12.exr", true},
+        {"a.##.exr", 123, "a.123.exr", true},
+        {"a.%4d.exr", 7, "a.7.exr", true},
+        {"a.%04d.exr", -5, "a.-005.exr", true},
+        {"a.exr", 7, "a.exr", false},
+        {"a#1.exr", 7, "a#1.exr", false},
+        {"100%.exr", 7, "100%.exr", false},
+        {"a%s.exr", 7, "a%s.exr", false},
+        {"%n%04d%x", 7, "%n0007%x", true},
+        {"%03d/a.###.exr", 7, "007/a.007.exr", true},
+        {"a.%012d.exr", 7, "a.%012d.exr", false},
+        {"", 7, "", false},
+        {"%", 1, "%", false},
+        {"a.%04d", 2147483647, "a.2147483647", true},
     };
     char path[64];
     for (size_t i = 0; i < WO_COUNT(cases); i++) {
@@ -420,12 +455,15 @@ static void frames_make_paths(void **state)
 }
 
 #ifdef __GLIBC__
-/* A locale with a decimal comma, made here because none need be installed: the file of LC_NUMERIC is
-   a number for the kind, the number of its entries, their places, and the entries. */
+/* A locale with a decimal comma, made here because none need be installed: the file of LC_NUMERIC
+   is a number for the kind, the number of its entries, their places, and the entries. */
 static void use_decimal_comma(void)
 {
     static const uint32_t head[8] = {0x20031114, 6, 32, 34, 35, 36, 40, 44};
-    static const char entries[18] = ",\0\0\0" ",\0\0\0" "\0\0\0\0" "UTF-8";
+    static const char entries[18] = ",\0\0\0"
+                                    ",\0\0\0"
+                                    "\0\0\0\0"
+                                    "UTF-8";
     char bytes[sizeof head + sizeof entries];
     memcpy(bytes, head, sizeof head);
     memcpy(bytes + sizeof head, entries, sizeof entries);

@@ -83,8 +83,8 @@ static wo_io_part parts[2];
 
 static wo_status write_file(const void *what)
 {
-    const wo_status status = wo_io_write(what, parts, strstr(what, ".exr") ? 2 : 1, WO_IO_AUTO,
-                                         &fault);
+    const wo_status status =
+        wo_io_write(what, parts, strstr(what, ".exr") ? 2 : 1, WO_IO_AUTO, &fault);
     assert_int_equal(count_files(false), status == WO_OK ? 1 : 0);
     count_files(true);
     return status;
@@ -116,8 +116,8 @@ static wo_status make_part(const void *what)
 
 static void fill_parts(void)
 {
-    static const char *const names[] = {"R", "G", "B", "Z", "a.layer.with.a.rather.long.name.R",
-                                        "b.R", "b.G", "b.B"};
+    static const char *const names[] = {
+        "R", "G", "B", "Z", "a.layer.with.a.rather.long.name.R", "b.R", "b.G", "b.B"};
     static const struct {
         const char *name, *text, *kind;
     } texts[] = {{"owner", "me", ""},
@@ -128,8 +128,8 @@ static void fill_parts(void)
                  {"colorInteropID", "lin_rec709_scene", ""}};
     const wo_rect frame = {0, 0, 40, 40};
     for (int i = 0; i < 2; i++) {
-        assert_ok(wo_io_part_init(&parts[i], i ? "second" : "first", frame, frame, names,
-                                  i ? 8 : 3, &fault));
+        assert_ok(wo_io_part_init(&parts[i], i ? "second" : "first", frame, frame, names, i ? 8 : 3,
+                                  &fault));
         fill_noise(&parts[i], 0, 1);
         assert_ok(wo_io_part_set_number(&parts[i], "number", 4, &fault));
         for (size_t t = 0; t < WO_COUNT(texts); t++) {

@@ -25,7 +25,7 @@ static wo_error fault;
         fault.text[0] = '\0';                                                                      \
         const wo_status got = (call);                                                              \
         if (got != (expected) || !strstr(fault.text, words))                                       \
-            fail_msg("%s, \"%s\" instead of %s, \"%s\"", wo_status_text(got), fault.text,           \
+            fail_msg("%s, \"%s\" instead of %s, \"%s\"", wo_status_text(got), fault.text,          \
                      wo_status_text(expected), words);                                             \
     } while (0)
 
@@ -74,7 +74,8 @@ static void fill_pair(const canvas *ref, const canvas *out, bool lamps)
                 if (lamps && (x * 5 + y * 3) % 97 == 0)
                     r = 2000;
                 pixel(ref, x, y)[c] = (float)r;
-                pixel(out, x, y)[c] = (float)(r + ((x * 11 + y * 3 + c * 29 + x * x) % 9 - 3) / 64.0);
+                pixel(out, x, y)[c] =
+                    (float)(r + ((x * 11 + y * 3 + c * 29 + x * x) % 9 - 3) / 64.0);
             }
 }
 
@@ -88,27 +89,48 @@ static void known_errors(void **state)
         int crop;
         double wanted[6];
     } cases[] = {
-        {64, 48, false, 0,
-         {0.011766346339436188, 28.700651958214735, 30.011725984816326,
-          0.98946711232126905, 0.078125, 1.020979020979021}},
-        {64, 48, true, 0,
-         {0.011673310603357414, 28.740326351453838, 30.036290192344488,
-          0.9895581726908631, 0.078125, 1.0007469143586829}},
-        {64, 48, true, 5,
-         {0.011919921791778171, 28.701924156399222, 30.100083091384484,
-          0.99024874705635602, 0.078125, 1.0007369048559589}},
-        {7, 5, false, 0,
-         {0.028677029651031777, 27.59647649173251, 28.255528880399666,
-          0.98609690900436631, 0.078125, 1.0317460317460319}},
-        {1, 1, false, 0,
-         {0.080660492360121142, 37.884512070234557, 33.19583550344808,
-          0.99597209863756575, 0.046875, 0.80000000000000004}},
-        {333, 1, true, 0,
-         {0.014615264746161262, 28.205155205265964, 29.638709131556912,
-          0.98479896577243742, 0.078125, 1.0006311731290833}},
-        {200, 150, true, 0,
-         {0.01194474126932896, 28.741433168236739, 29.892705281718715,
-          0.98911574228722954, 0.078125, 1.0007322199424691}},
+        {64,
+         48,
+         false,
+         0,
+         {0.011766346339436188, 28.700651958214735, 30.011725984816326, 0.98946711232126905,
+          0.078125, 1.020979020979021}},
+        {64,
+         48,
+         true,
+         0,
+         {0.011673310603357414, 28.740326351453838, 30.036290192344488, 0.9895581726908631,
+          0.078125, 1.0007469143586829}},
+        {64,
+         48,
+         true,
+         5,
+         {0.011919921791778171, 28.701924156399222, 30.100083091384484, 0.99024874705635602,
+          0.078125, 1.0007369048559589}},
+        {7,
+         5,
+         false,
+         0,
+         {0.028677029651031777, 27.59647649173251, 28.255528880399666, 0.98609690900436631,
+          0.078125, 1.0317460317460319}},
+        {1,
+         1,
+         false,
+         0,
+         {0.080660492360121142, 37.884512070234557, 33.19583550344808, 0.99597209863756575,
+          0.046875, 0.80000000000000004}},
+        {333,
+         1,
+         true,
+         0,
+         {0.014615264746161262, 28.205155205265964, 29.638709131556912, 0.98479896577243742,
+          0.078125, 1.0006311731290833}},
+        {200,
+         150,
+         true,
+         0,
+         {0.01194474126932896, 28.741433168236739, 29.892705281718715, 0.98911574228722954,
+          0.078125, 1.0007322199424691}},
     };
     for (size_t i = 0; i < WO_COUNT(cases); i++)
         for (int variant = 0; variant < 4; variant++) {
@@ -295,16 +317,16 @@ static void differences_are_shown(void **state)
     assert_true(broken[0] == 1 && broken[1] == 0 && broken[2] == 1);
     free(map.data);
 
-    assert_ok(wo_picture_show_difference(&ref.image, &out.image, WO_DIFFERENCE_SIGNED, 0, &map,
-                                         &fault));
+    assert_ok(
+        wo_picture_show_difference(&ref.image, &out.image, WO_DIFFERENCE_SIGNED, 0, &map, &fault));
     const float *darker = wo_image_at(&map, 150, map.bounds.y2 - 11);
     assert_true(darker[2] > darker[0] + 0.2f);
     const float *brighter = wo_image_at(&map, 250, map.bounds.y2 - 11);
     assert_true(brighter[0] > brighter[2] + 0.2f);
     free(map.data);
-    assert_fault(wo_picture_show_difference(&ref.image, &out.image, WO_DIFFERENCE_SIGNED, NAN, &map,
-                                            &fault),
-                 WO_ERR_RANGE, "limit");
+    assert_fault(
+        wo_picture_show_difference(&ref.image, &out.image, WO_DIFFERENCE_SIGNED, NAN, &map, &fault),
+        WO_ERR_RANGE, "limit");
     free(ref.memory);
     free(out.memory);
 }
@@ -334,10 +356,11 @@ static void sheets(void **state)
     const wo_picture_cell cells[3] = {
         {.image = &red.image, .linear = true, .caption = {"red below", "second line"}},
         {.image = &tall.image, .caption = {"tall", NULL}},
-        {.image = NULL, .caption = {"nothing", "a line that is much too long for its cell, "
-                                               "and so it is cut short somewhere"}}};
-    const wo_picture_layout layout = {.title = "Title", .subtitle = "and more", .columns = 2,
-                                      .cell_width = 160};
+        {.image = NULL,
+         .caption = {"nothing", "a line that is much too long for its cell, "
+                                "and so it is cut short somewhere"}}};
+    const wo_picture_layout layout = {
+        .title = "Title", .subtitle = "and more", .columns = 2, .cell_width = 160};
     wo_image sheet;
     assert_ok(wo_picture_sheet(&layout, cells, 3, &sheet, &fault));
     /* letter 9, gap 9, caption 36, head 45, cells 160 x 90 */
@@ -351,9 +374,9 @@ static void sheets(void **state)
     assert_near((double)above[1], 1, 0.003);
     assert_near(level(&sheet, 9 + 169 + 80, 54 + 45), 0.25, 0.003);
     assert_near(level(&sheet, 9 + 169 + 20, 54 + 45), 24.0 / 255, 0.001); /* beside the tall one */
-    assert_true(letters_in(&sheet, 8, 30) > 100);          /* title */
-    assert_true(letters_in(&sheet, 54 + 90, 54 + 126) > 100); /* captions */
-    for (int x = 1; x < 9; x++) /* the frame stays free */
+    assert_true(letters_in(&sheet, 8, 30) > 100);                         /* title */
+    assert_true(letters_in(&sheet, 54 + 90, 54 + 126) > 100);             /* captions */
+    for (int x = 1; x < 9; x++)                                           /* the frame stays free */
         for (int row = 0; row < wo_rect_height(sheet.bounds); row++)
             assert_near(level(&sheet, x, row), 38.0 / 255, 0.001);
     free(sheet.data);
