@@ -111,6 +111,7 @@ static void take_tile(void *user, size_t index, unsigned worker)
     if (job->out->first[index + 1] == job->out->first[index])
         return;
     share_cache cache = {.count = 0};
+    int packed = 0; /* place of the sheet in the stack, which has no empty ones */
     for (size_t s = 0; s < job->sheet_count; s++) {
         wo_sheet *sheet = &job->sheets[s];
         const wo_rect r = wo_rect_intersect(tile_of(job->out->tiles, index), sheet->area);
@@ -125,7 +126,7 @@ static void take_tile(void *user, size_t index, unsigned worker)
                     continue;
                 const double part = cached_share(&cache, job->lens, v, (float)reach);
                 const float above = (peak - WO_HIGHLIGHT_LEVEL) / peak;
-                *to = (wo_highlight){x, y, v, (float)reach, {0}};
+                *to = (wo_highlight){x, y, v, (float)reach, packed, {0}};
                 for (int k = 0; k < 3; k++) {
                     to->c[k] = (float)(part * above) * sheet->c[at][k];
                     sheet->c[at][k] -= above * sheet->c[at][k];
@@ -133,6 +134,7 @@ static void take_tile(void *user, size_t index, unsigned worker)
                 to++;
             }
         }
+        packed += sheet->any;
     }
 }
 
@@ -208,10 +210,21 @@ void wo_highlights_destroy(const wo_context *context, wo_highlights *highlights)
     *highlights = (wo_highlights){0};
 }
 
-/* Light that gets through from the surface at vergence v to pixel (x, y) along the line; the rules of
-   march.h, one ray at a time. */
-static float visible(const wo_stack *stack, int32_t x, int32_t y, const double line[4], float v,
-                     float v_near, float v_same)
+/* A patch hides a highlight when its blur radius says that it is nearer by so many px: little for other
+   sheets, more for the highlight's own, which goes on beside it. */
+#define HIDES_PX     0.05f
+#define HIDES_OWN_PX 0.5f
+
+/* From which vergence on a sheet can hide a highlight. */
+static float hides_from(const wo_highlight *h, int sheet, float px_per_dioptre)
+{
+    return h->v + (sheet == h->sheet ? HIDES_OWN_PX : HIDES_PX) / px_per_dioptre;
+}
+
+/* Light that gets through from a highlight to pixel (x, y) along the line; the rules of march.h, one ray
+   at a time. */
+static float visible(const wo_stack *stack, int32_t x, int32_t y, const double line[4],
+                     const wo_highlight *h, float v_near, float px_per_dioptre)
 {
     const bool upright = fabs(line[3]) > fabs(line[2]);
     const float am = (float)line[upright ? 1 : 0];
@@ -219,7 +232,7 @@ static float visible(const wo_stack *stack, int32_t x, int32_t y, const double l
     const float slope = bm != 0 ? (float)line[upright ? 2 : 3] / bm : 0;
     const float n0 = (float)line[upright ? 0 : 1] - slope * am;
     const float s_near = am + bm * v_near;
-    const float s_end = am + bm * v;
+    const float s_end = am + bm * h->v;
     const int dir = s_near >= s_end ? -1 : 1;
     const int last = (int)lrintf(s_end);
     float before[WO_SHEETS_MAX];
@@ -236,7 +249,7 @@ static float visible(const wo_stack *stack, int32_t x, int32_t y, const double l
             before[s] = e;
             const bool hit =
                 fabsf(e) <= 0.5f || (e < -0.5f && e0 > 0.5f && e0 - e <= 1 + WO_CONNECT_PX);
-            if (hit && q > v_same)
+            if (hit && q > hides_from(h, s, px_per_dioptre))
                 light *= 1 - stack->c[s][3][at];
         }
         if (i == last)
@@ -245,15 +258,15 @@ static float visible(const wo_stack *stack, int32_t x, int32_t y, const double l
     return 0;
 }
 
-/* True when no surface between the two pixels is nearer than v_same. */
+/* True when no surface between the two pixels can hide the highlight. */
 static bool nothing_between(const wo_stack *stack, int32_t x, int32_t y, const wo_highlight *h,
-                            float v_same)
+                            float px_per_dioptre)
 {
     const wo_rect r = {x < h->x ? x : h->x, y < h->y ? y : h->y, (x > h->x ? x : h->x) + 1,
                        (y > h->y ? y : h->y) + 1};
     bool gaps = false;
     for (int s = 0; s < stack->sheets; s++)
-        if (wo_stack_bounds(stack, s, r, &gaps).v_max > v_same)
+        if (wo_stack_bounds(stack, s, r, &gaps).v_max > hides_from(h, s, px_per_dioptre))
             return false;
     return true;
 }
@@ -265,6 +278,7 @@ int64_t wo_highlights_add(const wo_highlights *highlights, const wo_stack *stack
     int64_t rays = 0;
     if (highlights->count == 0)
         return 0;
+    const float px_per_dioptre = (float)lens->px_per_dioptre;
     const int32_t reach = (int32_t)ceilf(highlights->reach);
     const wo_rect grown = wo_rect_grow(tile, reach, reach);
     const wo_rect tiles = wo_rect_intersect(
@@ -282,7 +296,6 @@ int64_t wo_highlights_add(const wo_highlights *highlights, const wo_stack *stack
             const int32_t r = (int32_t)ceilf(h->reach);
             const wo_rect disc = wo_rect_intersect(
                 tile, (wo_rect){h->x - r, h->y - r, h->x + r + 1, h->y + r + 1});
-            const float v_same = h->v + 0.5f / (float)lens->px_per_dioptre;
             for (int32_t y = disc.y1; y < disc.y2; y++) {
                 for (int32_t x = disc.x1; x < disc.x2; x++) {
                     double line[4];
@@ -292,8 +305,8 @@ int64_t wo_highlights_add(const wo_highlights *highlights, const wo_stack *stack
                         continue;
                     rays++;
                     float light = (float)density;
-                    if (v_near > v_same && !nothing_between(stack, x, y, h, v_same))
-                        light *= visible(stack, x, y, line, h->v, v_near, v_same);
+                    if (v_near > h->v && !nothing_between(stack, x, y, h, px_per_dioptre))
+                        light *= visible(stack, x, y, line, h, v_near, px_per_dioptre);
                     float *sum = sums[y - tile.y1][x - tile.x1];
                     for (int k = 0; k < 3; k++)
                         sum[k] += light * h->c[k];

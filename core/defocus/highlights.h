@@ -18,6 +18,7 @@ typedef struct wo_highlight {
     int32_t x, y;
     float v;
     float reach; /* px */
+    int sheet;   /* of the stack */
     float c[3];  /* light above the level, times the share that one connecting ray carries relative
                     to lens.connect's density: the discrete sum over all pixels is exact */
 } wo_highlight;

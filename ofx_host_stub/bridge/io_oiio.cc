@@ -359,6 +359,8 @@ OIIO::ImageSpec spec_of(const wo_io_part *part, const wo_io_format *format, int 
         spec.attribute("oiio:UnassociatedAlpha", 1);
     if (!std::strcmp(format->library_name, "jpeg"))
         spec.attribute("Compression", "jpeg:95");
+    if (!std::strcmp(format->library_name, "png"))
+        spec.attribute("png:compressionLevel", 4); /* half the time of 6, a tenth larger */
     return spec;
 }
 

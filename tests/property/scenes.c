@@ -81,8 +81,7 @@ void picture_fill(const wo_image *picture, const float *pixel)
 {
     for (int32_t y = picture->bounds.y1; y < picture->bounds.y2; y++)
         for (int32_t x = picture->bounds.x1; x < picture->bounds.x2; x++)
-            memcpy(wo_image_at(picture, x, y), pixel,
-                   (size_t)picture->components * sizeof *pixel);
+            memcpy(wo_image_at(picture, x, y), pixel, (size_t)picture->components * sizeof *pixel);
 }
 
 double picture_difference(const wo_image *a, const wo_image *b, wo_rect bounds)
@@ -115,8 +114,7 @@ double picture_rms(const wo_image *a, const wo_image *b, wo_rect bounds)
 
 bool picture_same_bytes(const wo_image *a, const wo_image *b, wo_rect bounds)
 {
-    const size_t bytes =
-        (size_t)wo_rect_width(bounds) * (size_t)a->components * sizeof *a->data;
+    const size_t bytes = (size_t)wo_rect_width(bounds) * (size_t)a->components * sizeof *a->data;
     for (int32_t y = bounds.y1; y < bounds.y2; y++)
         if (memcmp(wo_image_at(a, bounds.x1, y), wo_image_at(b, bounds.x1, y), bytes) != 0)
             return false;
@@ -158,8 +156,8 @@ wo_image *scene_clip(scene *s, int clip, int32_t components)
 void scene_px_per_dioptre(scene *s, double px)
 {
     const double f = s->params.focal_length;
-    s->params.f_stop = wo_rect_width(s->geometry.format) / s->params.sensor_width * f * f * 1e-3 /
-                       (2 * px);
+    s->params.f_stop =
+        wo_rect_width(s->geometry.format) / s->params.sensor_width * f * f * 1e-3 / (2 * px);
 }
 
 wo_plan_args scene_args(const scene *s, wo_rect window)
@@ -274,8 +272,7 @@ static void *work(void *user)
 {
     const member *m = user;
     team *t = m->team;
-    for (size_t i = atomic_fetch_add(&t->next, 1); i < t->count;
-         i = atomic_fetch_add(&t->next, 1))
+    for (size_t i = atomic_fetch_add(&t->next, 1); i < t->count; i = atomic_fetch_add(&t->next, 1))
         t->func(t->job, i, m->worker);
     return NULL;
 }

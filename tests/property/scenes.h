@@ -8,8 +8,8 @@
 
 #include <math.h>
 
-/* Small made-up scenes for LensBlur, and a way to run it. Helpers fail the running test when something
-   goes wrong that the test did not ask for. */
+/* Small made-up scenes for LensBlur, and a way to run it. Helpers fail the running test when
+   something goes wrong that the test did not ask for. */
 
 /* Repeatable random numbers: splitmix64. */
 typedef struct rng {
@@ -17,7 +17,7 @@ typedef struct rng {
 } rng;
 
 uint64_t rng_bits(rng *r);
-double rng_unit(rng *r);                          /* 0 <= x < 1 */
+double rng_unit(rng *r); /* 0 <= x < 1 */
 double rng_range(rng *r, double low, double high);
 int32_t rng_int(rng *r, int32_t low, int32_t high); /* both ends included */
 

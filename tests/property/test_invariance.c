@@ -92,15 +92,15 @@ static void move(scene *s, int32_t dx, int32_t dy)
 {
     wo_rect *const rects[] = {&s->geometry.extent, &s->geometry.format};
     for (size_t i = 0; i < WO_COUNT(rects); i++)
-        *rects[i] = (wo_rect){rects[i]->x1 + dx, rects[i]->y1 + dy, rects[i]->x2 + dx,
-                              rects[i]->y2 + dy};
+        *rects[i] =
+            (wo_rect){rects[i]->x1 + dx, rects[i]->y1 + dy, rects[i]->x2 + dx, rects[i]->y2 + dy};
     for (int i = 0; i < WO_LENS_BLUR_CLIPS; i++)
         if (s->clip[i].data)
             s->clip[i].bounds = s->geometry.extent;
 }
 
-/* Neighbouring tiles use different lens rays, so that no pattern shows; with one pencil for all of them
-   what is left must not depend on the place. */
+/* Neighbouring tiles use different lens rays, so that no pattern shows; with one pencil for all of
+   them what is left must not depend on the place. */
 static wo_image render_one_pencil(const scene *s)
 {
     const wo_context context = WO_CONTEXT_INIT;
@@ -196,10 +196,8 @@ static void views_move_exactly(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(constant_stays_constant),
-        cmocka_unit_test(opaque_stays_opaque),
-        cmocka_unit_test(whole_tiles_move_exactly),
-        cmocka_unit_test(any_move_stays_within_noise),
+        cmocka_unit_test(constant_stays_constant),  cmocka_unit_test(opaque_stays_opaque),
+        cmocka_unit_test(whole_tiles_move_exactly), cmocka_unit_test(any_move_stays_within_noise),
         cmocka_unit_test(views_move_exactly),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

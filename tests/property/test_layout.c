@@ -61,9 +61,9 @@ static void tiles_are_the_whole(void **state)
             for (size_t clip = 0; clip < WO_LENS_BLUR_CLIPS; clip++) {
                 wo_rect needed;
                 const wo_plan_args args = scene_args(&s, window);
-                assert_int_equal(wo_lens_blur.region(&s.params, &args.geometry, window, clip,
-                                                     &needed, NULL),
-                                 WO_OK);
+                assert_int_equal(
+                    wo_lens_blur.region(&s.params, &args.geometry, window, clip, &needed, NULL),
+                    WO_OK);
                 cut.clip[clip] = part_of(&s.clip[clip], needed);
                 assert_true(!s.clip[clip].data || cut.clip[clip].data);
             }

@@ -152,8 +152,8 @@ static void identity_where_nothing_can_blur(void **state)
     scene_free(&s);
 }
 
-/* A picture that is in focus everywhere comes out as it went in, to the byte, whether the effect knows it
-   beforehand or finds out; coverage too. */
+/* A picture that is in focus everywhere comes out as it went in, to the byte, whether the effect
+   knows it beforehand or finds out; coverage too. */
 static void sharp_is_the_source(void **state)
 {
     (void)state;

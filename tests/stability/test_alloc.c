@@ -22,8 +22,8 @@ static void *bank_get(void *user, size_t bytes)
     const long call = atomic_fetch_add(&b->calls, 1);
     if (call == b->fail_at)
         return NULL;
-    void *memory = aligned_alloc(WO_ALIGNMENT, (bytes + WO_ALIGNMENT - 1) / WO_ALIGNMENT *
-                                                   WO_ALIGNMENT);
+    void *memory =
+        aligned_alloc(WO_ALIGNMENT, (bytes + WO_ALIGNMENT - 1) / WO_ALIGNMENT * WO_ALIGNMENT);
     assert_non_null(memory);
     memset(memory, 0xa5, bytes);
     atomic_fetch_add(&b->live, 1);
@@ -143,7 +143,7 @@ static void stopped_at_every_poll(void **state)
     const unsigned threads[] = {1, 3};
     for (size_t t = 0; t < WO_COUNT(threads); t++) {
         long polls = 1;
-        for (long n = 0; n <= polls; n += 1 + polls / 60) {
+        for (long n = 0; n <= polls; n += 1 + polls / 40) {
             bank b;
             stopper stop = {.stop_at = n == 0 ? 1000000 : n - 1};
             wo_context context = context_of(&b, -1);

@@ -179,10 +179,9 @@ static void vertices_point_the_right_way(void **state)
                 const double vertex = turn + 2 * PI * k / blades;
                 const double middle = vertex + PI / blades;
                 const double flat = cos(PI / blades);
-                assert_true(wo_aperture_inside(&shape, 0.9999 * cos(vertex),
-                                               0.9999 * sin(vertex)));
-                assert_false(wo_aperture_inside(&shape, 1.0001 * cos(vertex),
-                                                1.0001 * sin(vertex)));
+                assert_true(wo_aperture_inside(&shape, 0.9999 * cos(vertex), 0.9999 * sin(vertex)));
+                assert_false(
+                    wo_aperture_inside(&shape, 1.0001 * cos(vertex), 1.0001 * sin(vertex)));
                 assert_true(wo_aperture_inside(&shape, 0.9999 * flat * cos(middle),
                                                0.9999 * flat * sin(middle)));
                 assert_false(wo_aperture_inside(&shape, 1.0001 * flat * cos(middle),
@@ -277,9 +276,9 @@ static void refused_values(void **state)
 {
     (void)state;
     const wo_aperture bad[] = {
-        {1, 0, 0, 1},      {2, 0, 0, 1},    {17, 0, 0, 1},  {-1, 0, 0, 1},       {6, 1.01, 0, 1},
-        {6, -1.01, 0, 1},  {6, NAN, 0, 1},  {6, 0, NAN, 1}, {6, 0, INFINITY, 1}, {6, 0, 0, 0.09},
-        {6, 0, 0, 10.001}, {6, 0, 0, NAN},  {6, 0, 0, 0},   {6, 0, 0, -1}};
+        {1, 0, 0, 1},      {2, 0, 0, 1},   {17, 0, 0, 1},  {-1, 0, 0, 1},       {6, 1.01, 0, 1},
+        {6, -1.01, 0, 1},  {6, NAN, 0, 1}, {6, 0, NAN, 1}, {6, 0, INFINITY, 1}, {6, 0, 0, 0.09},
+        {6, 0, 0, 10.001}, {6, 0, 0, NAN}, {6, 0, 0, 0},   {6, 0, 0, -1}};
     for (size_t i = 0; i < WO_COUNT(bad); i++) {
         wo_error error = {WO_OK, ""};
         assert_int_equal(wo_aperture_validate(&bad[i], &error), WO_ERR_RANGE);

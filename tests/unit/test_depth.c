@@ -78,15 +78,24 @@ static void no_surface(void **state)
         wo_depth_mode mode;
         double sample;
     } none[] = {
-        {WO_DEPTH_DISTANCE, NAN},       {WO_DEPTH_DISTANCE, INFINITY},
-        {WO_DEPTH_DISTANCE, -INFINITY}, {WO_DEPTH_DISTANCE, 0},
-        {WO_DEPTH_DISTANCE, -0.0},      {WO_DEPTH_DISTANCE, -2},
-        {WO_DEPTH_RAY, NAN},            {WO_DEPTH_RAY, INFINITY},
-        {WO_DEPTH_RAY, -INFINITY},      {WO_DEPTH_RAY, 0},
-        {WO_DEPTH_RAY, -2},             {WO_DEPTH_INVERSE, NAN},
-        {WO_DEPTH_INVERSE, INFINITY},   {WO_DEPTH_INVERSE, -INFINITY},
-        {WO_DEPTH_INVERSE, -2},         {WO_DEPTH_NORMALISED, NAN},
-        {WO_DEPTH_NORMALISED, INFINITY}, {WO_DEPTH_NORMALISED, -INFINITY},
+        {WO_DEPTH_DISTANCE, NAN},
+        {WO_DEPTH_DISTANCE, INFINITY},
+        {WO_DEPTH_DISTANCE, -INFINITY},
+        {WO_DEPTH_DISTANCE, 0},
+        {WO_DEPTH_DISTANCE, -0.0},
+        {WO_DEPTH_DISTANCE, -2},
+        {WO_DEPTH_RAY, NAN},
+        {WO_DEPTH_RAY, INFINITY},
+        {WO_DEPTH_RAY, -INFINITY},
+        {WO_DEPTH_RAY, 0},
+        {WO_DEPTH_RAY, -2},
+        {WO_DEPTH_INVERSE, NAN},
+        {WO_DEPTH_INVERSE, INFINITY},
+        {WO_DEPTH_INVERSE, -INFINITY},
+        {WO_DEPTH_INVERSE, -2},
+        {WO_DEPTH_NORMALISED, NAN},
+        {WO_DEPTH_NORMALISED, INFINITY},
+        {WO_DEPTH_NORMALISED, -INFINITY},
     };
     for (size_t i = 0; i < WO_COUNT(none); i++) {
         bool valid = true;
@@ -134,9 +143,12 @@ static void nearer_is_larger(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(distance),   cmocka_unit_test(inverse),
-        cmocka_unit_test(ray),        cmocka_unit_test(normalised),
-        cmocka_unit_test(no_surface), cmocka_unit_test(always_a_number),
+        cmocka_unit_test(distance),
+        cmocka_unit_test(inverse),
+        cmocka_unit_test(ray),
+        cmocka_unit_test(normalised),
+        cmocka_unit_test(no_surface),
+        cmocka_unit_test(always_a_number),
         cmocka_unit_test(nearer_is_larger),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

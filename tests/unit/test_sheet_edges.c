@@ -100,8 +100,7 @@ static void mixtures_are_unmixed(void **state)
             const float *over = own_is_near ? back : front;
             const float *under = own_is_near ? front : back;
             for (int k = 0; k < 4; k++) {
-                const double composite =
-                    (double)over[k] + (1 - (double)over[3]) * (double)under[k];
+                const double composite = (double)over[k] + (1 - (double)over[3]) * (double)under[k];
                 assert_near(composite, (double)before.c[i][k], 2e-3);
                 assert_near((double)over[k], part * (double)near_colour[k], 0.02);
                 assert_near((double)under[k], (double)far_colour[k], 0.02);
@@ -272,8 +271,8 @@ static void nothing_is_hidden(void **state)
     assert_false(hidden.any);
     wo_sheet_destroy(&plain, &hidden);
     /* What a second layer holds everywhere needs no guess. */
-    wo_sheet both[3] = {box_scene(area, (wo_rect){8, 8, 20, 20}), box_scene(area, (wo_rect){0}),
-                        {.area = area}};
+    wo_sheet both[3] = {
+        box_scene(area, (wo_rect){8, 8, 20, 20}), box_scene(area, (wo_rect){0}), {.area = area}};
     hidden = fill(both, 3, 4);
     assert_false(hidden.any);
     for (size_t i = 0; i < 32 * 32; i++)

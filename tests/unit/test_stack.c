@@ -97,8 +97,7 @@ static void packing_and_bounds(void **state)
     for (size_t i = 0; i < sizeof opaque; i++)
         opaque[i] = rng_unit(&r) < 0.5;
     wo_stack stack;
-    assert_int_equal(wo_stack_create(&plain, sheets, 5, opaque, area, extent, &stack, NULL),
-                     WO_OK);
+    assert_int_equal(wo_stack_create(&plain, sheets, 5, opaque, area, extent, &stack, NULL), WO_OK);
     assert_int_equal(stack.sheets, 3);
     assert_true(wo_rect_equal(stack.area, wo_stack_grid(area)));
     assert_false(stack.guessed[0] || stack.guessed[1]);
@@ -131,8 +130,8 @@ static void packing_and_bounds(void **state)
             float high = -INFINITY;
             bool empty = false;
             for (int32_t y = q.y1 - (q.y1 - a.y1) % WO_CELL; y < q.y2 || (y - a.y1) % WO_CELL; y++)
-                for (int32_t x = q.x1 - (q.x1 - a.x1) % WO_CELL;
-                     x < q.x2 || (x - a.x1) % WO_CELL; x++) {
+                for (int32_t x = q.x1 - (q.x1 - a.x1) % WO_CELL; x < q.x2 || (x - a.x1) % WO_CELL;
+                     x++) {
                     const float v = stack.v[s][wo_stack_at(&stack, x, y)];
                     empty |= isnan(v);
                     low = fminf(low, v);
@@ -183,10 +182,8 @@ static void a_stack_of_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_grid),
-        cmocka_unit_test(pixels_have_places_of_their_own),
-        cmocka_unit_test(packing_and_bounds),
-        cmocka_unit_test(a_gap_once_seen_stays_seen),
+        cmocka_unit_test(the_grid),           cmocka_unit_test(pixels_have_places_of_their_own),
+        cmocka_unit_test(packing_and_bounds), cmocka_unit_test(a_gap_once_seen_stays_seen),
         cmocka_unit_test(a_stack_of_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -113,16 +113,26 @@ static void refused_values(void **state)
         int breathing;
         const char *word;
     } bad[] = {
-        {0, 36, 2, 2, 100, 0, "focal length"},     {-50, 36, 2, 2, 100, 0, "focal length"},
-        {NAN, 36, 2, 2, 100, 0, "focal length"},   {INFINITY, 36, 2, 2, 100, 0, "focal length"},
-        {50, 0, 2, 2, 100, 0, "sensor"},           {50, -1, 2, 2, 100, 0, "sensor"},
-        {50, NAN, 2, 2, 100, 0, "sensor"},         {50, INFINITY, 2, 2, 100, 0, "sensor"},
-        {50, 36, 0, 2, 100, 0, "f-number"},        {50, 36, -2, 2, 100, 0, "f-number"},
-        {50, 36, NAN, 2, 100, 0, "f-number"},      {50, 36, INFINITY, 2, 100, 0, "f-number"},
-        {50, 36, 2, NAN, 100, 0, "focus"},         {50, 36, 2, INFINITY, 100, 0, "focus"},
-        {50, 36, 2, 2, 0, 0, "width"},             {50, 36, 2, 2, -5, 0, "width"},
-        {50, 36, 2, 2, NAN, 0, "width"},           {50, 36, 2, 2, INFINITY, 0, "width"},
-        {50, 36, 2, 0.05, 100, 1, "focal length"}, {50, 36, 2, 0.01, 100, 1, "focal length"},
+        {0, 36, 2, 2, 100, 0, "focal length"},
+        {-50, 36, 2, 2, 100, 0, "focal length"},
+        {NAN, 36, 2, 2, 100, 0, "focal length"},
+        {INFINITY, 36, 2, 2, 100, 0, "focal length"},
+        {50, 0, 2, 2, 100, 0, "sensor"},
+        {50, -1, 2, 2, 100, 0, "sensor"},
+        {50, NAN, 2, 2, 100, 0, "sensor"},
+        {50, INFINITY, 2, 2, 100, 0, "sensor"},
+        {50, 36, 0, 2, 100, 0, "f-number"},
+        {50, 36, -2, 2, 100, 0, "f-number"},
+        {50, 36, NAN, 2, 100, 0, "f-number"},
+        {50, 36, INFINITY, 2, 100, 0, "f-number"},
+        {50, 36, 2, NAN, 100, 0, "focus"},
+        {50, 36, 2, INFINITY, 100, 0, "focus"},
+        {50, 36, 2, 2, 0, 0, "width"},
+        {50, 36, 2, 2, -5, 0, "width"},
+        {50, 36, 2, 2, NAN, 0, "width"},
+        {50, 36, 2, 2, INFINITY, 0, "width"},
+        {50, 36, 2, 0.05, 100, 1, "focal length"},
+        {50, 36, 2, 0.01, 100, 1, "focal length"},
     };
     for (size_t i = 0; i < WO_COUNT(bad); i++) {
         wo_thin_lens lens = {9, 9, 9};
@@ -168,9 +178,11 @@ static void odd_lenses_stay_finite(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(closed_form),   cmocka_unit_test(one_lens_by_hand),
+        cmocka_unit_test(closed_form),
+        cmocka_unit_test(one_lens_by_hand),
         cmocka_unit_test(focus_at_infinity_and_beyond),
-        cmocka_unit_test(scales),        cmocka_unit_test(refused_values),
+        cmocka_unit_test(scales),
+        cmocka_unit_test(refused_values),
         cmocka_unit_test(odd_lenses_stay_finite),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
