@@ -6,7 +6,8 @@
 #include <string.h>
 
 /* Light maps. Every texel asks the same few sets of directions, so neighbours agree and there is no
-   grain; flat maps take four sets in turn and are smoothed over them. */
+   grain; flat maps take four sets in turn and are smoothed over them, so that every other direction
+   is enough, and rods are thin: every third. */
 enum {
     SKY_RAYS = 96, /* over the whole sphere; about half count on a surface */
     SUN_RAYS = 12,
@@ -113,32 +114,33 @@ static void add_lamps(const wo_scene *scene, wo_vec point, wo_vec normal, float 
     }
 }
 
-/* Irradiance over pi at a point of a surface. */
-static void gather(const wo_scene *scene, const directions *d, int set, wo_vec at, wo_vec normal,
-                   float rgb[3])
+/* Irradiance over pi at a point of a surface, from every stride-th direction (1, 2, 3). */
+static void gather(const wo_scene *scene, const directions *d, int set, int stride, wo_vec at,
+                   wo_vec normal, float rgb[3])
 {
     const wo_vec point = wo_vec_along(at, normal, LIFT);
     wo_ray rays[BATCH];
     float light[BATCH][3];
     bool blocked[BATCH], from_sky[BATCH];
     size_t count = 0;
-    for (int i = 0; i < SKY_RAYS; i++) {
+    const float sky_weight = 4 * (float)stride / SKY_RAYS, sun_weight = (float)stride / SUN_RAYS;
+    for (int i = set % stride; i < SKY_RAYS; i += stride) {
         const float cosine = wo_vec_dot(d->sky[set][i], normal);
         if (cosine <= 0)
             continue;
         sky_radiance(&scene->sky, d->sky[set][i], light[count]);
         for (int c = 0; c < 3; c++)
-            light[count][c] *= cosine * 4 / SKY_RAYS;
+            light[count][c] *= cosine * sky_weight;
         from_sky[count] = true;
         rays[count++] = ray_to(point, d->sky[set][i], INFINITY);
     }
     for (int s = 0; s < scene->sun_count; s++)
-        for (int i = 0; i < SUN_RAYS; i++) {
+        for (int i = set % stride; i < SUN_RAYS; i += stride) {
             const float cosine = wo_vec_dot(d->sun[set][s][i], normal);
             if (cosine <= 0)
                 continue;
             for (int c = 0; c < 3; c++)
-                light[count][c] = scene->suns[s].colour[c] * cosine / SUN_RAYS;
+                light[count][c] = scene->suns[s].colour[c] * cosine * sun_weight;
             from_sky[count] = false;
             rays[count++] = ray_to(point, d->sun[set][s][i], INFINITY);
         }
@@ -149,7 +151,7 @@ static void gather(const wo_scene *scene, const directions *d, int set, wo_vec a
             normal, (wo_vec){rays[i].direction[0], rays[i].direction[1], rays[i].direction[2]});
         for (int c = 0; c < 3; c++) {
             const float instead =
-                from_sky[i] ? scene->sky.bounce[c] * cosine * 4 / SKY_RAYS : 0;
+                from_sky[i] ? scene->sky.bounce[c] * cosine * sky_weight : 0;
             rgb[c] += blocked[i] ? instead : light[i][c];
         }
     }
@@ -171,7 +173,7 @@ static void gather_rod(const wo_scene *scene, const directions *d, const wo_shap
     for (int i = 0; i < ROD_SIDES; i++) {
         const wo_vec n = wo_vec_scale(side[i & 1], i < 2 ? 1.0f : -1.0f);
         float rgb[3];
-        gather(scene, d, (int)((chain + (size_t)i) % SETS),
+        gather(scene, d, (int)((chain + (size_t)i) % SETS), 3,
                wo_vec_along(centre, n, s->points[texel][3]), n, rgb);
         for (int c = 0; c < 3; c++) {
             out[c] += rgb[c] / ROD_SIDES;
@@ -197,15 +199,16 @@ static void light_texel(const wo_scene *scene, const directions *d, wo_shape *s,
     }
     if (!wo_shape_texel(scene, s, texel, &point, &normal))
         return;
-    int set = 0;
+    int set = 0, stride = 1;
     if (is_flat(s)) {
+        stride = 2;
         const size_t width = (size_t)s->map_width, place = texel % (width * (size_t)s->map_height);
         set = (int)(place % width % 2 + 2 * (place / width % 2));
     }
-    gather(scene, d, set, point, normal, out);
+    gather(scene, d, set, stride, point, normal, out);
     if (s->both_sides) {
         float behind[3];
-        gather(scene, d, set, point, wo_vec_scale(normal, -1), behind);
+        gather(scene, d, set, stride, point, wo_vec_scale(normal, -1), behind);
         for (int c = 0; c < 3; c++)
             out[c] = 0.5f * (out[c] + behind[c]);
     }

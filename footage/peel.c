@@ -221,21 +221,16 @@ static int reduce_groups(const wo_peel_pixel *pixel, patch *joined, int groups, 
     return groups;
 }
 
-/* What a group shows. Seen from the lens centre, coverage is the share of what the groups in front leave
-   open, so that compositing gives back the picture and no light leaks between neighbours that meet
-   in the pixel; where next to nothing is left open, it is the covered area. */
-static void finish_group(const patch *p, float open, float all, wo_peel_layer *out)
+/* What a group shows. Coverage is its share of what the groups in front leave open as seen from the lens
+   centre, so that compositing gives back the picture and no light leaks between neighbours that
+   meet in the pixel; where nothing is left open, it is the covered area. */
+static void finish_group(const patch *p, int open, int all, wo_peel_layer *out)
 {
-    const float area = (float)p->any / all;
-    const float seen = (float)p->first / all;
-    const float trust = open > 0 ? fminf(1, 8 * open) : 0;
-    const float share = open > 0 ? fminf(1, seen / open) : 0;
-    const float coverage = wo_mix(area, share, trust);
-    for (int c = 0; c < 3; c++) {
-        const float whole = p->any_rgb[c] / (float)p->any;
-        const float front = p->first ? p->first_rgb[c] / (float)p->first : whole;
-        out->rgba[c] = coverage * wo_mix(whole, front, trust);
-    }
+    const float *const sums = open > 0 ? p->first_rgb : p->any_rgb;
+    const int count = open > 0 ? p->first : p->any;
+    const float coverage = (float)count / (float)(open > 0 ? open : all);
+    for (int c = 0; c < 3; c++)
+        out->rgba[c] = count > 0 ? coverage * sums[c] / (float)count : 0;
     out->rgba[3] = coverage;
     out->z = p->z;
 }
@@ -249,12 +244,10 @@ int wo_peel_patches(wo_peel_pixel *pixel, int layers, wo_peel_layer *out, int64_
     int groups = join_touching(patches, count, pixel->footprint, group, joined);
     sum_groups(pixel, group, joined, groups);
     groups = reduce_groups(pixel, joined, groups, layers, group, count, dropped);
-    const float all = (float)(pixel->samples - 1);
-    float open = 1;
-    int filled = 0;
+    int filled = 0, open = pixel->samples - 1;
     for (int g = 0; g < groups; g++) {
-        finish_group(&joined[g], open, all, &out[filled]);
-        open = fmaxf(0, open - (float)joined[g].first / all);
+        finish_group(&joined[g], open, pixel->samples - 1, &out[filled]);
+        open -= joined[g].first;
         if (out[filled].rgba[3] > 0)
             filled++;
         else

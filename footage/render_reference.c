@@ -123,7 +123,7 @@ static void common_rays(const task *t, room *r, int32_t x, int32_t y, uint32_t k
             r->ray[i] = wo_camera_ray(t->camera, (float)x + wo_scrambled(bits[0], keys[0]),
                                       (float)y + wo_scrambled(bits[1], keys[1]), u[0], u[1]);
         }
-        wo_raycast_trace(t->scene->cast, r->ray, r->hit, (size_t)count, WO_RAYS_ANY);
+        wo_raycast_trace(t->scene->cast, r->ray, r->hit, (size_t)count, WO_RAYS_COHERENT);
         for (int i = 0; i < count; i++) {
             if (r->hit[i].geometry == WO_RAYCAST_NONE)
                 continue;

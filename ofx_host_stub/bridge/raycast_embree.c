@@ -57,8 +57,6 @@ wo_status wo_raycast_create(wo_raycast **cast, wo_error *error)
     }
     made->scene = rtcNewScene(made->device);
     if (made->scene)
-        rtcSetSceneBuildQuality(made->scene, RTC_BUILD_QUALITY_HIGH);
-    if (made->scene)
         rtcSetSceneFlags(made->scene,
                          RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     wo_status status = check(made->device, "making a scene", error);

@@ -105,6 +105,19 @@ static bool read_options(const wo_args *args, wo_footage_options *o, unsigned *t
     return true;
 }
 
+static int unknown_scene(const char *name)
+{
+    const char *names[64];
+    char near[256];
+    size_t count = 0;
+    while (count < WO_COUNT(names) && wo_footage_scene_at(count)) {
+        names[count] = wo_footage_scene_at(count)->name;
+        count++;
+    }
+    wo_near_words(name, names, count, near, sizeof near);
+    return wo_usage_fault("footage", "there is no scene %s; there is: %s", name, near);
+}
+
 static void move_bar(void *user, double fraction)
 {
     wo_bar_move(user, fraction);
@@ -148,7 +161,7 @@ static int make(const wo_args *args)
     if (!read_options(args, &o, &threads))
         return WO_EXIT_USAGE;
     if (!wo_footage_scene_find(o.scene))
-        return wo_usage_fault("footage", "no scene %s; `wideopen footage` lists them", o.scene);
+        return unknown_scene(o.scene);
     if (!folder)
         return wo_usage_fault("footage", "-o DIR is needed: where the files go");
     if (mkdir(folder, 0777) != 0 && errno != EEXIST) {

