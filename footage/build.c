@@ -60,8 +60,14 @@ wo_shape *wo_build_shape(wo_builder *b, wo_shape_kind kind, const wo_texture *te
     if (b->status != WO_OK)
         return NULL;
     wo_shape *const s = &scene->shapes[scene->shape_count++];
-    *s = (wo_shape){.kind = kind, .texture = *texture, .per_piece = 1, .sheet = INFINITY,
-                    .lit = true, .map_width = 2, .map_height = 2, .texel_floats = 3};
+    *s = (wo_shape){.kind = kind,
+                    .texture = *texture,
+                    .per_piece = 1,
+                    .sheet = INFINITY,
+                    .lit = true,
+                    .map_width = 2,
+                    .map_height = 2,
+                    .texel_floats = 3};
     const wo_affine pose = wo_affine_after(&b->to_camera, to_world);
     s->to_texture = wo_affine_rigid_inverse(&pose);
     for (int i = 0; i < 3; i++)
@@ -86,9 +92,9 @@ static wo_status add_mesh(wo_builder *b, const wo_shape *s, int kind)
         return b->status;
     for (size_t i = 0; i < s->point_count; i++)
         memcpy(vertices[i], s->points[i], sizeof vertices[i]);
-    const wo_status status = wo_raycast_add_quads(
-        b->scene->cast, kind, (const float(*)[3])vertices, s->point_count,
-        (const uint32_t(*)[4])s->quads, s->primitives, NULL, b->error);
+    const wo_status status =
+        wo_raycast_add_quads(b->scene->cast, kind, (const float(*)[3])vertices, s->point_count,
+                             (const uint32_t(*)[4])s->quads, s->primitives, NULL, b->error);
     wo_delete(b->context, vertices);
     return status;
 }
@@ -108,9 +114,8 @@ void wo_build_finish(wo_builder *b, wo_shape *s, int kind)
         b->status = wo_raycast_add_spheres(b->scene->cast, kind, (const float(*)[4])s->points,
                                            s->point_count, NULL, b->error);
     else if (s->kind == WO_SHAPE_RODS)
-        b->status =
-            wo_raycast_add_rods(b->scene->cast, kind, (const float(*)[4])s->points, s->point_count,
-                                s->first, s->primitives, NULL, b->error);
+        b->status = wo_raycast_add_rods(b->scene->cast, kind, (const float(*)[4])s->points,
+                                        s->point_count, s->first, s->primitives, NULL, b->error);
     else
         b->status = add_mesh(b, s, kind);
 }
@@ -213,10 +218,10 @@ void wo_build_lamps(wo_builder *b, const float (*balls)[4], const float (*radian
             grown(b, scene->lamps, scene->lamp_count, &scene->lamp_room, sizeof *scene->lamps);
         if (b->status != WO_OK)
             return;
-        scene->lamps[scene->lamp_count++] = (wo_lamp){
-            {s->points[i][0], s->points[i][1], s->points[i][2]},
-            balls[i][3],
-            {radiance[i][0], radiance[i][1], radiance[i][2]}};
+        scene->lamps[scene->lamp_count++] =
+            (wo_lamp){{s->points[i][0], s->points[i][1], s->points[i][2]},
+                      balls[i][3],
+                      {radiance[i][0], radiance[i][1], radiance[i][2]}};
     }
     wo_build_finish(b, s, WO_RAYCAST_CLOSED);
 }
@@ -252,8 +257,7 @@ void wo_build_rod(wo_builder *b, wo_vec from, wo_vec to, float radius, const wo_
     enum { POINTS = 9 };
     float points[POINTS][4];
     for (int i = 0; i < POINTS; i++) {
-        const wo_vec p =
-            wo_vec_along(from, wo_vec_sub(to, from), (float)i / (float)(POINTS - 1));
+        const wo_vec p = wo_vec_along(from, wo_vec_sub(to, from), (float)i / (float)(POINTS - 1));
         points[i][0] = p.x;
         points[i][1] = p.y;
         points[i][2] = p.z;

@@ -52,9 +52,9 @@ void wo_build_colour(wo_builder *b, float saturation, float value, float rgb[3])
 void *wo_build_new(wo_builder *b, size_t count, size_t size);
 void wo_build_free(wo_builder *b, void *room);
 
-/* Flat things: centre and two half edges; the texture lies in their plane, y along the second. A ground
-   is large and mapped from the camera, panels are ordinary. Unlit ones show their texture as it
-   is. The side that looks along half_a x half_b is the lit one. */
+/* Flat things: centre and two half edges; the texture lies in their plane, y along the second. A
+   ground is large and mapped from the camera, panels are ordinary. Unlit ones show their texture as
+   it is. The side that looks along half_a x half_b is the lit one. */
 void wo_build_ground(wo_builder *b, wo_vec centre, wo_vec half_a, wo_vec half_b,
                      const wo_texture *texture);
 void wo_build_panel(wo_builder *b, wo_vec centre, wo_vec half_a, wo_vec half_b,
@@ -65,9 +65,9 @@ void wo_build_chart(wo_builder *b, wo_vec centre, wo_vec half_a, wo_vec half_b,
 void wo_build_box(wo_builder *b, const wo_pose *pose, wo_vec half, const wo_texture *texture);
 void wo_build_ball(wo_builder *b, const wo_pose *pose, float radius, const wo_texture *texture);
 
-/* Closed meshes; y is their axis, the pose stands for the centre of a torus and for the foot of what is
-   turned on a lathe. profile holds (radius, height) from the bottom to the top, joined by smooth
-   curves; equal neighbours make a corner. */
+/* Closed meshes; y is their axis, the pose stands for the centre of a torus and for the foot of
+   what is turned on a lathe. profile holds (radius, height) from the bottom to the top, joined by
+   smooth curves; equal neighbours make a corner. */
 void wo_build_torus(wo_builder *b, const wo_pose *pose, float radius, float tube,
                     const wo_texture *texture);
 void wo_build_lathe(wo_builder *b, const wo_pose *pose, const float (*profile)[2], int count,

@@ -15,7 +15,8 @@ enum {
     TORUS_ACROSS = 32
 };
 
-/* The frame of something flat: x along a, then y along b; those that want the ground get z along b. */
+/* The frame of something flat: x along a, then y along b; those that want the ground get z along b.
+ */
 static wo_affine flat_frame(wo_vec centre, wo_vec half_a, wo_vec half_b, wo_texture_kind kind)
 {
     const wo_vec x = wo_vec_unit(half_a), n = wo_vec_unit(wo_vec_cross(half_a, half_b));
@@ -183,8 +184,8 @@ static bool same(const float a[2], const float b[2])
     return a[0] == b[0] && a[1] == b[1];
 }
 
-/* A point at t of the stretch from profile[i] to profile[i + 1] and the direction there: a cubic whose
-   ends lean towards the neighbours, or straight on beside a corner. */
+/* A point at t of the stretch from profile[i] to profile[i + 1] and the direction there: a cubic
+   whose ends lean towards the neighbours, or straight on beside a corner. */
 static void profile_at(const float (*profile)[2], int count, int i, float t, float at[2],
                        float along[2])
 {

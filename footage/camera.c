@@ -12,7 +12,7 @@ void wo_camera_make(int width, int height, double focal_mm, double sensor_mm, do
         .radius = (float)(focal_mm * 1e-3 / (2 * f_stop)),
         .focus = (float)(1 / focus_m),
         .blades = blades,
-        .turn = (float)(rotation * 3.14159265358979323846 / 180),
+        .turn = (float)(fmod(rotation, 360) * 3.14159265358979323846 / 180),
     };
 }
 

@@ -6,10 +6,10 @@
 #include "bridge/raycast.h"
 #include "vec.h"
 
-/* A thin lens in the plane z = 0, written here once more and on its own, so that the reference does not
-   share mistakes with what it judges. Point u of the unit disc sees through pixel place x the line
-   that crosses depth z at pinhole place x + F E u (1/z - vf), because it starts at E u and meets
-   the pinhole's ray in the plane of focus. */
+/* A thin lens in the plane z = 0, written here once more and on its own, so that the reference does
+   not share mistakes with what it judges. Point u of the unit disc sees through pixel place x the
+   line that crosses depth z at pinhole place x + F E u (1/z - vf), because it starts at E u and
+   meets the pinhole's ray in the plane of focus. */
 typedef struct wo_camera {
     float centre_x, centre_y; /* px: the axis */
     float focal_px;           /* F */

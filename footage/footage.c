@@ -85,17 +85,19 @@ static wo_status check_options(wo_footage_options *o, wo_error *error)
     WO_TRY(check_range("layers", o->layers, 0, WO_FOOTAGE_LAYERS_MAX, error));
     WO_TRY(check_range("peel", o->peel, WO_FOOTAGE_PATCHES, WO_FOOTAGE_HITS, error));
     WO_TRY(check_range("focal length in mm", o->focal_mm, 1, 2000, error));
-    WO_TRY(check_range("f-number", o->f_stop, 0.1, 1e6, error));
-    WO_TRY(check_range("rotation", o->rotation, -360, 360, error));
+    WO_TRY(check_range("f-number", o->f_stop, 0.01, 1e6, error));
+    WO_TRY(check_range("rotation", o->rotation, -1e6, 1e6, error));
     if (!(fabs(o->focus_m) >= 0.01))
-        return wo_fail(error, WO_ERR_RANGE, "the focus distance is %g m; it must be 0.01 m or more, "
-                       "or beyond infinity -0.01 m or less", o->focus_m);
+        return wo_fail(error, WO_ERR_RANGE,
+                       "the focus distance is %g m; it must be 0.01 m or more, "
+                       "or beyond infinity -0.01 m or less",
+                       o->focus_m);
     if (o->blades != 0)
         WO_TRY(check_range("blades (if not 0)", o->blades, 3, 16, error));
     if (o->reference_spp != 0) {
         int batches, rays;
-        WO_TRY(check_range("rays of the reference (if not 0)", o->reference_spp, 16, 1 << 20,
-                           error));
+        WO_TRY(
+            check_range("rays of the reference (if not 0)", o->reference_spp, 16, 1 << 20, error));
         wo_render_batches(o->reference_spp, &batches, &rays);
         o->reference_spp = batches * rays;
     }
@@ -131,8 +133,8 @@ static wo_status make_stages(const wo_context *context, wo_footage *f, const wo_
                    o->blades, o->rotation, &camera);
     WO_TRY(make_images(context, f, error));
     double start = now();
-    WO_TRY(wo_scene_create(context, entry, o->seed, tangent, tangent * o->height / o->width,
-                           scene, error));
+    WO_TRY(wo_scene_create(context, entry, o->seed, tangent, tangent * o->height / o->width, scene,
+                           error));
     WO_TRY(wo_scene_light(context, *scene, &progress, light / all, error));
     f->seconds[0] = now() - start;
     start = now();

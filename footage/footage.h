@@ -14,14 +14,14 @@ extern "C" {
    lens can look behind, and through a thin lens by brute force, which is the truth a lens blur has
    to meet.
 
-   Surfaces are diffuse or glow: the light that leaves a point is the same in every direction, as any
-   lens blur that works on pictures must assume, so pinhole, layers and lens reference show the
+   Surfaces are diffuse or glow: the light that leaves a point is the same in every direction, as
+   any lens blur that works on pictures must assume, so pinhole, layers and lens reference show the
    same radiance. The light on the surfaces (soft shadows, sky, lamps) is computed once into maps
    that belong to the scene; it adds no noise and no difference between them.
 
-   Camera: at the origin, x to the right, y up, looking along -z; depth is planar distance in metres.
-   The field of view belongs to the focal length and does not change with the focus. The pixel filter
-   is the pixel's own square, for pinhole, layers and reference alike.
+   Camera: at the origin, x to the right, y up, looking along -z; depth is planar distance in
+   metres. The field of view belongs to the focal length and does not change with the focus. The
+   pixel filter is the pixel's own square, for pinhole, layers and reference alike.
 
    Everything is a function of the options alone: same bytes for every number of threads. */
 
@@ -41,10 +41,10 @@ const wo_footage_scene *wo_footage_scene_at(size_t index);
 const wo_footage_scene *wo_footage_scene_find(const char *name);
 
 typedef enum wo_footage_peel {
-    /* Surfaces that are continuous within a pixel form one patch with its own coverage and depth: at
-       an edge the front layer holds the covered part only, the surface behind is whole. Composited
-       in the order of depth the layers give the pinhole picture; a lens finds colours of one surface
-       at the depth of that surface. A patch has a depth wherever it has coverage. */
+    /* Surfaces that are continuous within a pixel form one patch with its own coverage and depth:
+       at an edge the front layer holds the covered part only, the surface behind is whole.
+       Composited in the order of depth the layers give the pinhole picture; a lens finds colours of
+       one surface at the depth of that surface. A patch has a depth wherever it has coverage. */
     WO_FOOTAGE_PATCHES,
     /* Layer k averages the k-th hits of the rays in the pixel; depth is that of the centre's ray, 0
        where that has no k-th hit. What renderers give: an edge pixel mixes near and far colour. */
@@ -63,32 +63,32 @@ typedef struct wo_footage_options {
     int reference_spp; /* lens rays per pixel, 0 or 16..2^20; 0: no reference. Rounded up */
     uint64_t seed;     /* 0 is a seed like any other */
     double focal_mm, f_stop, focus_m; /* 0: the scene's; focus INFINITY or negative are legal */
-    int blades;        /* 0: round, else 3..16 straight blades, corners on the circle */
-    double rotation;   /* degrees, counter-clockwise: angle of a corner from +x, as the
-                          photographer looks out */
+    int blades;      /* 0: round, else 3..16 straight blades, corners on the circle */
+    double rotation; /* degrees, counter-clockwise: angle of a corner from +x, as the
+                        photographer looks out */
 } wo_footage_options;
 
 /* 36 mm, the width of all sensors here. */
 #define WO_FOOTAGE_SENSOR_MM 36.0
 
-/* A finished set. Images are y up with bounds {0, 0, width, height}; what was not asked for has data =
-   NULL. Depth 0 means no surface. Normals point to the camera's side of open surfaces and out of
-   solids, in camera coordinates. */
+/* A finished set. Images are y up with bounds {0, 0, width, height}; what was not asked for has
+   data = NULL. Depth 0 means no surface. Normals point to the camera's side of open surfaces and
+   out of solids, in camera coordinates. */
 typedef struct wo_footage {
     const wo_footage_scene *scene;
-    wo_footage_options options;       /* with the defaults filled in */
-    wo_image colour, depth, normal;   /* RGBA, 1, 3 */
+    wo_footage_options options;     /* with the defaults filled in */
+    wo_image colour, depth, normal; /* RGBA, 1, 3 */
     int layer_count;
     wo_image layer[WO_FOOTAGE_LAYERS_MAX];       /* premultiplied RGBA */
     wo_image layer_depth[WO_FOOTAGE_LAYERS_MAX]; /* 1 */
     int64_t layer_pixels[WO_FOOTAGE_LAYERS_MAX]; /* with coverage */
-    int64_t umbra_dropped;  /* patches left out because no lens ray reaches them */
-    int64_t deeper_dropped; /* patches behind the last layer, each hidden behind a whole one */
+    int64_t umbra_dropped;    /* patches left out because no lens ray reaches them */
+    int64_t deeper_dropped;   /* patches behind the last layer, each hidden behind a whole one */
     wo_image reference;       /* RGBA */
     wo_image reference_error; /* RGB: standard error of the mean, from independent batches */
     int batches;
-    double noise_psnr;        /* dB: the mean's noise, sRGB curve of values clipped to 0..1 */
-    double seconds[3];        /* light, pinhole and layers, reference; wall clock */
+    double noise_psnr; /* dB: the mean's noise, sRGB curve of values clipped to 0..1 */
+    double seconds[3]; /* light, pinhole and layers, reference; wall clock */
 } wo_footage;
 
 /* Makes a set in memory, from context's allocator; *footage is owned by the caller until
@@ -104,9 +104,9 @@ void wo_footage_destroy(const wo_context *context, wo_footage **footage);
 #define WO_FOOTAGE_REFERENCE       "reference.exr"
 #define WO_FOOTAGE_REFERENCE_ERROR "reference_error.exr"
 
-/* Writes the set into an existing folder. pinhole.exr has the parts "rgba", "depth" (Z) and "normal"
-   (N.X N.Y N.Z), layers.exr "layer1", "layer1_depth" and so on, the others one part. Every part
-   carries the camera: wideopen:focalLength and wideopen:sensorWidth (mm), wideopen:fStop,
+/* Writes the set into an existing folder. pinhole.exr has the parts "rgba", "depth" (Z) and
+   "normal" (N.X N.Y N.Z), layers.exr "layer1", "layer1_depth" and so on, the others one part. Every
+   part carries the camera: wideopen:focalLength and wideopen:sensorWidth (mm), wideopen:fStop,
    wideopen:focusDistance (m), wideopen:blades, wideopen:rotation, wideopen:scene, wideopen:seed. */
 WO_NODISCARD wo_status wo_footage_write(const wo_footage *footage, const char *folder,
                                         wo_error *error);

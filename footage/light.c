@@ -60,8 +60,8 @@ static void make_directions(const wo_scene *scene, directions *d)
             for (int i = 0; i < SUN_RAYS; i++) {
                 const float r = tanf(sun->radius) * sqrtf(((float)i + slip) / SUN_RAYS);
                 const float angle = golden * (float)i + turn;
-                const wo_vec aside = wo_vec_along(wo_vec_scale(a, r * cosf(angle)), b,
-                                                  r * sinf(angle));
+                const wo_vec aside =
+                    wo_vec_along(wo_vec_scale(a, r * cosf(angle)), b, r * sinf(angle));
                 d->sun[set][s][i] = wo_vec_unit(wo_vec_add(sun->towards, aside));
             }
         }
@@ -150,8 +150,7 @@ static void gather(const wo_scene *scene, const directions *d, int set, int stri
         const float cosine = wo_vec_dot(
             normal, (wo_vec){rays[i].direction[0], rays[i].direction[1], rays[i].direction[2]});
         for (int c = 0; c < 3; c++) {
-            const float instead =
-                from_sky[i] ? scene->sky.bounce[c] * cosine * sky_weight : 0;
+            const float instead = from_sky[i] ? scene->sky.bounce[c] * cosine * sky_weight : 0;
             rgb[c] += blocked[i] ? instead : light[i][c];
         }
     }

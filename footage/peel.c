@@ -48,10 +48,10 @@ int wo_peel_hits(const wo_peel_pixel *pixel, int layers, wo_peel_layer *out)
 /* Hits that belong together. */
 typedef struct patch {
     uint64_t piece;
-    float low, high; /* depths */
-    float z, offset; /* depth of the sample nearest to the centre */
-    int last;        /* sample that joined last */
-    int any, first;  /* samples that hit it, that hit it before all else */
+    float low, high;                /* depths */
+    float z, offset;                /* depth of the sample nearest to the centre */
+    int last;                       /* sample that joined last */
+    int any, first;                 /* samples that hit it, that hit it before all else */
     float any_rgb[3], first_rgb[3]; /* sums */
 } patch;
 
@@ -104,8 +104,11 @@ static int form_patches(wo_peel_pixel *pixel, patch *patches)
                 at = closest_patch(patches, count, hit->z);
             if (at < 0) {
                 at = count++;
-                patches[at] = (patch){.piece = hit->piece, .low = hit->z, .high = hit->z,
-                                      .z = hit->z, .offset = pixel->offset[s]};
+                patches[at] = (patch){.piece = hit->piece,
+                                      .low = hit->z,
+                                      .high = hit->z,
+                                      .z = hit->z,
+                                      .offset = pixel->offset[s]};
             }
             patch *const p = &patches[at];
             hit->patch = at;
@@ -121,8 +124,8 @@ static int form_patches(wo_peel_pixel *pixel, patch *patches)
     return count;
 }
 
-/* Orders patches by depth and joins those that touch: group[i] becomes the place of patch i among the
-   joined ones, which are written to joined. Returns their number. */
+/* Orders patches by depth and joins those that touch: group[i] becomes the place of patch i among
+   the joined ones, which are written to joined. Returns their number. */
 static int join_touching(const patch *patches, int count, float footprint, int *group,
                          patch *joined)
 {
@@ -221,9 +224,9 @@ static int reduce_groups(const wo_peel_pixel *pixel, patch *joined, int groups, 
     return groups;
 }
 
-/* What a group shows. Coverage is its share of what the groups in front leave open as seen from the lens
-   centre, so that compositing gives back the picture and no light leaks between neighbours that
-   meet in the pixel; where nothing is left open, it is the covered area. */
+/* What a group shows. Coverage is its share of what the groups in front leave open as seen from the
+   lens centre, so that compositing gives back the picture and no light leaks between neighbours
+   that meet in the pixel; where nothing is left open, it is the covered area. */
 static void finish_group(const patch *p, int open, int all, wo_peel_layer *out)
 {
     const float *const sums = open > 0 ? p->first_rgb : p->any_rgb;
@@ -257,8 +260,8 @@ int wo_peel_patches(wo_peel_pixel *pixel, int layers, wo_peel_layer *out, int64_
 }
 
 /* Is the patch of layer j at (x, y) out of sight behind whole patches of all nine pixels? */
-static bool hidden(const wo_camera *camera, const wo_image *layer, const wo_image *depth, int layers,
-                   int32_t x, int32_t y, int j)
+static bool hidden(const wo_camera *camera, const wo_image *layer, const wo_image *depth,
+                   int layers, int32_t x, int32_t y, int j)
 {
     const float v = 1 / *wo_image_at(&depth[j], x, y);
     const float k = camera->focal_px * camera->radius;

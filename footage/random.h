@@ -5,14 +5,15 @@
 
 #include "wideopen/base.h"
 
-/* Random and well spread numbers that depend on nothing but their arguments. None of these fails. */
+/* Random and well spread numbers that depend on nothing but their arguments. None of these fails.
+ */
 
 /* A stream of its own for every seed. */
 typedef struct wo_random {
     uint64_t state;
 } wo_random;
 uint32_t wo_random_bits(wo_random *random);
-float wo_random_unit(wo_random *random);                         /* [0, 1) */
+float wo_random_unit(wo_random *random);                           /* [0, 1) */
 float wo_random_between(wo_random *random, float low, float high); /* [low, high) */
 
 /* Stirs two words into one. */
@@ -37,9 +38,10 @@ static inline uint32_t wo_mirror_bits(uint32_t x)
     return (x >> 16) | (x << 16);
 }
 
-/* A coordinate in [0, 1) from its mirrored bits, scrambled as by Owen: every bit is flipped by a hash
-   of the bits above it and of seed. The hash is that of Laine and Karras 2011 with the constants of
-   Burley 2020. Different seeds give independent sets that are each as well spread as the first. */
+/* A coordinate in [0, 1) from its mirrored bits, scrambled as by Owen: every bit is flipped by a
+   hash of the bits above it and of seed. The hash is that of Laine and Karras 2011 with the
+   constants of Burley 2020. Different seeds give independent sets that are each as well spread as
+   the first. */
 static inline float wo_scrambled(uint32_t mirrored, uint32_t seed)
 {
     uint32_t x = mirrored + seed;

@@ -53,8 +53,7 @@ static int make_rays(const task *t, room *r, int32_t x, int32_t y, int count)
         r->pixel[p].count[0] = 0;
         r->centre[p].geometry = WO_RAYCAST_NONE;
         r->open[made] = (open_ray){p, 0};
-        r->ray[made++] =
-            wo_camera_ray(t->camera, (float)(x + p) + 0.5f, (float)y + 0.5f, 0, 0);
+        r->ray[made++] = wo_camera_ray(t->camera, (float)(x + p) + 0.5f, (float)y + 0.5f, 0, 0);
     }
     for (int p = 0; p < count; p++) {
         const uint32_t key = wo_pixel_key(t->footage->options.seed, x + p, y, PURPOSE_PINHOLE);
@@ -65,8 +64,7 @@ static int make_rays(const task *t, room *r, int32_t x, int32_t y, int count)
             r->pixel[p].offset[s] = (dx - 0.5f) * (dx - 0.5f) + (dy - 0.5f) * (dy - 0.5f);
             r->pixel[p].count[s] = 0;
             r->open[made] = (open_ray){p, s};
-            r->ray[made++] =
-                wo_camera_ray(t->camera, (float)(x + p) + dx, (float)y + dy, 0, 0);
+            r->ray[made++] = wo_camera_ray(t->camera, (float)(x + p) + dx, (float)y + dy, 0, 0);
         }
     }
     return made;
@@ -90,8 +88,8 @@ static void store_hit(const task *t, const wo_ray *ray, const wo_hit *hit, wo_pe
 /* Follows all rays of a group through everything they meet. */
 static void peel(const task *t, room *r, int open)
 {
-    const int mode = WO_RAYS_COHERENT |
-                     (t->footage->options.back_faces ? WO_RAYS_ANY : WO_RAYS_FRONT_ONLY);
+    const int mode =
+        WO_RAYS_COHERENT | (t->footage->options.back_faces ? WO_RAYS_ANY : WO_RAYS_FRONT_ONLY);
     for (int k = 0; k < t->hits_max && open > 0; k++) {
         wo_raycast_trace(t->scene->cast, r->ray, r->hit, (size_t)open, mode);
         int still = 0;
@@ -199,8 +197,12 @@ wo_status wo_render_pinhole(const wo_context *context, const wo_scene *scene,
 {
     const wo_footage_options *const o = &footage->options;
     wo_image layer[WO_PEEL_LAYERS_MAX] = {{0}}, layer_depth[WO_PEEL_LAYERS_MAX] = {{0}};
-    task t = {.scene = scene, .camera = camera, .footage = footage, .layer = layer,
-              .layer_depth = layer_depth, .progress = progress};
+    task t = {.scene = scene,
+              .camera = camera,
+              .footage = footage,
+              .layer = layer,
+              .layer_depth = layer_depth,
+              .progress = progress};
     const bool umbra = o->umbra && o->layers > 0;
     t.layers = umbra ? o->layers + UMBRA_SPARE : o->layers;
     t.hits_max = t.layers == 0 ? 1 : o->peel == WO_FOOTAGE_HITS ? t.layers : 2 * t.layers + 4;
@@ -212,8 +214,8 @@ wo_status wo_render_pinhole(const wo_context *context, const wo_scene *scene,
         goto done;
     if (!(t.sobol = wo_new(context, error, (size_t)o->samples, sizeof *t.sobol)))
         goto done;
-    if (umbra && !(marks = wo_new(context, error, (size_t)o->width * (size_t)o->height,
-                                  (size_t)t.layers)))
+    if (umbra &&
+        !(marks = wo_new(context, error, (size_t)o->width * (size_t)o->height, (size_t)t.layers)))
         goto done;
     for (int k = 0; k < t.layers; k++)
         if (wo_render_image(context, o->width, o->height, 4, &layer[k], error) != WO_OK ||

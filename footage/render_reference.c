@@ -4,9 +4,9 @@
 
 #include <string.h>
 
-/* Distributed ray tracing through the lens (Cook, Porter and Carpenter 1984). Every pixel takes a number
-   of independent batches, each a scrambled Sobol set over the pixel's square and the aperture; the
-   spread of the batches is the error of their mean.
+/* Distributed ray tracing through the lens (Cook, Porter and Carpenter 1984). Every pixel takes a
+   number of independent batches, each a scrambled Sobol set over the pixel's square and the
+   aperture; the spread of the batches is the error of their mean.
 
    A lamp far out of focus is met by few of these rays, and each brings thousands. Where a lamp can
    only be seen through a small part of the aperture, its light is left out of the common rays and
@@ -33,19 +33,19 @@ void wo_render_batches(int spp, int *batches, int *rays)
 /* A lamp with rays of its own at one pixel. */
 typedef struct spot {
     uint32_t lamp;
-    float at[2];   /* px: where the pinhole shows its middle */
-    float per_px;  /* lens units per px: 1 / (K (v - vf)) */
-    float radius;  /* of the part of the aperture that may see it from one place of the pixel */
-    float u[2];    /* middle of the part seen from the pixel's centre */
-    float reach;   /* radius of the parts of all places of the pixel together */
+    float at[2];  /* px: where the pinhole shows its middle */
+    float per_px; /* lens units per px: 1 / (K (v - vf)) */
+    float radius; /* of the part of the aperture that may see it from one place of the pixel */
+    float u[2];   /* middle of the part seen from the pixel's centre */
+    float reach;  /* radius of the parts of all places of the pixel together */
 } spot;
 
 typedef struct room {
     wo_ray ray[CHUNK];
     wo_hit hit[CHUNK];
-    spot *spots;      /* [lamp_count] of the pixel at hand */
+    spot *spots; /* [lamp_count] of the pixel at hand */
     size_t spot_count;
-    uint32_t *pixel;  /* [lamp_count]: number of the pixel where the lamp last was a spot */
+    uint32_t *pixel; /* [lamp_count]: number of the pixel where the lamp last was a spot */
 } room;
 
 typedef struct task {
@@ -79,8 +79,8 @@ static bool find_spot(const wo_camera *camera, const wo_lamp *lamp, float x, flo
     *out = (spot){.lamp = out->lamp, .at = {px, py}, .per_px = 1 / (k * (v - camera->focus))};
     out->u[0] = (px - x) * out->per_px;
     out->u[1] = (py - y) * out->per_px;
-    /* Places of all points of the ball lie within this of the centre's, whatever their depth; and the
-       division differs over the ball by the same share. */
+    /* Places of all points of the ball lie within this of the centre's, whatever their depth; and
+       the division differs over the ball by the same share. */
     const float slant = sqrtf(lamp->centre.x * lamp->centre.x + lamp->centre.y * lamp->centre.y);
     const float place = camera->focal_px * near * r * (1 + (slant + r + camera->radius) * near);
     const float most = fmaxf(fabsf(near - camera->focus), fabsf(far - camera->focus));
@@ -109,8 +109,8 @@ static void find_spots(const task *t, room *r, int32_t x, int32_t y, uint32_t nu
 }
 
 /* Sums of one batch's common rays. */
-static void common_rays(const task *t, room *r, int32_t x, int32_t y, uint32_t key,
-                        uint32_t number, float sum[4])
+static void common_rays(const task *t, room *r, int32_t x, int32_t y, uint32_t key, uint32_t number,
+                        float sum[4])
 {
     const uint32_t keys[4] = {wo_stir(key, 0), wo_stir(key, 1), wo_stir(key, 2), wo_stir(key, 3)};
     for (int at = 0; at < t->rays; at += CHUNK) {
@@ -166,8 +166,8 @@ static void spot_rays(const task *t, room *r, const spot *s, int32_t x, int32_t 
             met += shape->glow && shape->first_lamp + r->hit[i].primitive == s->lamp;
         }
     }
-    const float weight = WO_PI * s->radius * s->radius * t->inverse_area * (float)met /
-                         (float)t->lamp_rays;
+    const float weight =
+        WO_PI * s->radius * s->radius * t->inverse_area * (float)met / (float)t->lamp_rays;
     for (int c = 0; c < 3; c++)
         mean[c] += weight * t->scene->lamps[s->lamp].radiance[c];
 }
@@ -178,8 +178,8 @@ static double shown(double value)
     return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055;
 }
 
-/* Mean and standard error of the batches; and the variance of the shown mean by leaving out one batch
-   after the other, summed over the three colours. */
+/* Mean and standard error of the batches; and the variance of the shown mean by leaving out one
+   batch after the other, summed over the three colours. */
 static double close_pixel(const task *t, float (*batch)[4], float rgba[4], float error[3])
 {
     const int n = t->batches;
@@ -231,8 +231,7 @@ static void render_row(void *user, size_t row, unsigned worker)
             for (int c = 0; c < 4; c++)
                 batch[b][c] = sum[c] / (float)t->rays;
             for (size_t i = 0; i < r->spot_count; i++)
-                spot_rays(t, r, &r->spots[i], x, y, wo_stir(own, 16 + r->spots[i].lamp),
-                          batch[b]);
+                spot_rays(t, r, &r->spots[i], x, y, wo_stir(own, 16 + r->spots[i].lamp), batch[b]);
         }
         squares += close_pixel(t, batch, wo_image_at(&f->reference, x, y),
                                wo_image_at(&f->reference_error, x, y));
@@ -247,7 +246,10 @@ wo_status wo_render_reference(const wo_context *context, const wo_scene *scene,
 {
     const wo_footage_options *const o = &footage->options;
     const unsigned workers = wo_workers(context);
-    task t = {.scene = scene, .camera = camera, .footage = footage, .progress = progress,
+    task t = {.scene = scene,
+              .camera = camera,
+              .footage = footage,
+              .progress = progress,
               .inverse_area = 1 / wo_camera_area(camera)};
     wo_render_batches(o->reference_spp, &t.batches, &t.rays);
     t.lamp_rays = t.rays / 4 > LAMP_RAYS_LEAST ? t.rays / 4 : LAMP_RAYS_LEAST;
@@ -275,8 +277,7 @@ wo_status wo_render_reference(const wo_context *context, const wo_scene *scene,
     double squares = 0;
     for (int y = 0; y < o->height; y++)
         squares += t.row_squares[y];
-    footage->noise_psnr =
-        -10 * log10(fmax(squares / (3.0 * o->width * o->height), 1e-20));
+    footage->noise_psnr = -10 * log10(fmax(squares / (3.0 * o->width * o->height), 1e-20));
 done:
     for (unsigned i = 0; t.rooms && i < workers; i++) {
         wo_delete(context, t.rooms[i].spots);

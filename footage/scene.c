@@ -49,8 +49,8 @@ static void look_up(const float *map, int width, int height, float s, float t, f
         rgb[c] = wo_mix(wo_mix(low[c], low[c + 3], fx), wo_mix(high[c], high[c + 3], fx), fy);
 }
 
-/* The octahedron unfolded into the unit square; the border is folded onto itself, so texels on it agree
-   with their mirror images. */
+/* The octahedron unfolded into the unit square; the border is folded onto itself, so texels on it
+   agree with their mirror images. */
 static void octahedral(wo_vec n, float *s, float *t)
 {
     const float sum = fabsf(n.x) + fabsf(n.y) + fabsf(n.z);
@@ -158,10 +158,10 @@ wo_vec wo_scene_normal(const wo_scene *scene, const wo_ray *ray, const wo_hit *h
     if (s->kind == WO_SHAPE_GRID) {
         size_t k[4];
         grid_corners(s, hit->primitive, k);
-        const wo_vec low = wo_vec_along(wo_vec_scale(s->normals[k[0]], 1 - hit->u),
-                                        s->normals[k[1]], hit->u);
-        const wo_vec high = wo_vec_along(wo_vec_scale(s->normals[k[2]], 1 - hit->u),
-                                         s->normals[k[3]], hit->u);
+        const wo_vec low =
+            wo_vec_along(wo_vec_scale(s->normals[k[0]], 1 - hit->u), s->normals[k[1]], hit->u);
+        const wo_vec high =
+            wo_vec_along(wo_vec_scale(s->normals[k[2]], 1 - hit->u), s->normals[k[3]], hit->u);
         return wo_vec_unit(wo_vec_along(wo_vec_scale(low, 1 - hit->v), high, hit->v));
     }
     const wo_vec direction = {ray->direction[0], ray->direction[1], ray->direction[2]};
@@ -198,8 +198,7 @@ bool wo_shape_texel(const wo_scene *scene, const wo_shape *s, size_t texel, wo_v
     }
     const size_t width = (size_t)s->map_width, area = width * (size_t)s->map_height;
     const size_t own = texel / area, x = texel % area % width, y = texel % area / width;
-    const float u = (float)x / (float)(s->map_width - 1),
-                v = (float)y / (float)(s->map_height - 1);
+    const float u = (float)x / (float)(s->map_width - 1), v = (float)y / (float)(s->map_height - 1);
     if (s->kind == WO_SHAPE_BALLS) {
         *normal = from_octahedral(u, v);
         *point = wo_vec_along(point_of(s, own), *normal, s->points[own][3]);

@@ -3,14 +3,14 @@
 #ifndef WO_FOOTAGE_SCENE_H
 #define WO_FOOTAGE_SCENE_H
 
-#include "footage.h"
 #include "bridge/raycast.h"
+#include "footage.h"
 #include "texture.h"
 #include "worker.h"
 
-/* A scene ready to be seen: shapes in a ray caster, their textures, and maps of the light that falls on
-   them. Everything is in camera coordinates. Const after wo_scene_light; then any number of
-   threads may use it. */
+/* A scene ready to be seen: shapes in a ray caster, their textures, and maps of the light that
+   falls on them. Everything is in camera coordinates. Const after wo_scene_light; then any number
+   of threads may use it. */
 
 /* How the light map lies on a shape. */
 typedef enum wo_shape_kind {
@@ -26,22 +26,22 @@ typedef struct wo_shape {
     wo_texture texture;
     wo_affine to_texture; /* camera coordinates to cells */
     uint32_t primitives;
-    uint32_t per_piece; /* primitives that form one piece: something a ray enters once at most,
-                           unless sheet says otherwise */
-    float sheet;        /* m: faces of a piece further apart than this are different surfaces */
-    bool both_sides;    /* light of both sides is shared: leaves, sheets */
-    bool lit;           /* false: the texture is the radiance, there is no map */
-    float (*tint)[3];   /* [pieces] factor of the texture, or NULL */
-    float (*glow)[3];   /* [primitives] radiance added, or NULL */
+    uint32_t per_piece;  /* primitives that form one piece: something a ray enters once at most,
+                            unless sheet says otherwise */
+    float sheet;         /* m: faces of a piece further apart than this are different surfaces */
+    bool both_sides;     /* light of both sides is shared: leaves, sheets */
+    bool lit;            /* false: the texture is the radiance, there is no map */
+    float (*tint)[3];    /* [pieces] factor of the texture, or NULL */
+    float (*glow)[3];    /* [primitives] radiance added, or NULL */
     uint32_t first_lamp; /* of the scene's lamps, when glow is not NULL */
     int map_width, map_height; /* of one map */
     size_t texels;             /* of all maps, each of texel_floats numbers */
     int texel_floats;          /* RGB; RODS: RGB and three leans */
     float *map;
-    float (*points)[4];  /* vertices, centres with radii, points with radii; for lighting */
+    float (*points)[4];   /* vertices, centres with radii, points with radii; for lighting */
     uint32_t (*quads)[4]; /* QUADS and SCREEN: corners of each */
     uint32_t *first;      /* RODS: first point of each */
-    wo_vec *normals;     /* GRID: at vertices; of unit length */
+    wo_vec *normals;      /* GRID: at vertices; of unit length */
     size_t point_count;
 } wo_shape;
 

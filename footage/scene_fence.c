@@ -2,23 +2,31 @@
 /* Copyright the WideOpen authors */
 #include "scenes.h"
 
-static const float pot[][2] = {{0.001f, 0},    {0.14f, 0},     {0.14f, 0},    {0.2f, 0.3f},
+static const float pot[][2] = {{0.001f, 0},    {0.14f, 0},     {0.14f, 0},     {0.2f, 0.3f},
                                {0.21f, 0.36f}, {0.21f, 0.36f}, {0.24f, 0.36f}, {0.24f, 0.36f},
                                {0.24f, 0.44f}, {0.24f, 0.44f}, {0.001f, 0.42f}};
-static const float finial[][2] = {{0.001f, 0},     {0.16f, 0},   {0.16f, 0},   {0.16f, 0.06f},
-                                  {0.16f, 0.06f},  {0.06f, 0.12f}, {0.09f, 0.2f}, {0.19f, 0.36f},
-                                  {0.15f, 0.52f},  {0.05f, 0.62f}, {0.001f, 0.72f}};
+static const float finial[][2] = {{0.001f, 0},    {0.16f, 0},     {0.16f, 0},     {0.16f, 0.06f},
+                                  {0.16f, 0.06f}, {0.06f, 0.12f}, {0.09f, 0.2f},  {0.19f, 0.36f},
+                                  {0.15f, 0.52f}, {0.05f, 0.62f}, {0.001f, 0.72f}};
 
 static void garden(wo_builder *b)
 {
-    static const wo_texture gravel = {.kind = WO_TEXTURE_MARBLE, .a = {0.2f, 0.17f, 0.12f},
-                                      .b = {0.36f, 0.34f, 0.22f}, .scale = 5, .grain = 0.5f,
+    static const wo_texture gravel = {.kind = WO_TEXTURE_MARBLE,
+                                      .a = {0.2f, 0.17f, 0.12f},
+                                      .b = {0.36f, 0.34f, 0.22f},
+                                      .scale = 5,
+                                      .grain = 0.5f,
                                       .grain_scale = 4};
-    static const wo_texture wall = {.kind = WO_TEXTURE_BRICKS, .a = {0.62f, 0.5f, 0.42f},
-                                    .b = {0.46f, 0.44f, 0.4f}, .scale = 4, .grain = 0.35f,
+    static const wo_texture wall = {.kind = WO_TEXTURE_BRICKS,
+                                    .a = {0.62f, 0.5f, 0.42f},
+                                    .b = {0.46f, 0.44f, 0.4f},
+                                    .scale = 4,
+                                    .grain = 0.35f,
                                     .grain_scale = 0.5f};
-    static const wo_texture hedge = {.kind = WO_TEXTURE_MARBLE, .a = {0.04f, 0.12f, 0.03f},
-                                     .b = {0.2f, 0.38f, 0.08f}, .scale = 14};
+    static const wo_texture hedge = {.kind = WO_TEXTURE_MARBLE,
+                                     .a = {0.04f, 0.12f, 0.03f},
+                                     .b = {0.2f, 0.38f, 0.08f},
+                                     .scale = 14};
     wo_build_ground(b, (wo_vec){0, 0, -7}, (wo_vec){12, 0, 0}, (wo_vec){0, 0, -6}, &gravel);
     wo_build_panel(b, (wo_vec){0, 1.7f, -8.4f}, (wo_vec){9, 0, 0}, (wo_vec){0, 2.2f, 0}, &wall);
     wo_build_box(b, &(wo_pose){{-3.1f, 0.4f, -7.7f}, 0, 0, 0}, (wo_vec){1.2f, 0.5f, 0.3f}, &hedge);
@@ -27,9 +35,9 @@ static void garden(wo_builder *b)
 
 static void row_of_things(wo_builder *b)
 {
-    static const wo_texture_kind kinds[] = {WO_TEXTURE_CHECKER, WO_TEXTURE_DOTS, WO_TEXTURE_STRIPES,
-                                            WO_TEXTURE_MARBLE,  WO_TEXTURE_VEINS, WO_TEXTURE_DOTS,
-                                            WO_TEXTURE_CHECKER};
+    static const wo_texture_kind kinds[] = {
+        WO_TEXTURE_CHECKER, WO_TEXTURE_DOTS, WO_TEXTURE_STRIPES, WO_TEXTURE_MARBLE,
+        WO_TEXTURE_VEINS,   WO_TEXTURE_DOTS, WO_TEXTURE_CHECKER};
     for (int i = 0; i < (int)WO_COUNT(kinds); i++) {
         wo_texture base = {.kind = WO_TEXTURE_MARBLE, .scale = 6}, top = {.kind = kinds[i]};
         wo_build_colour(b, 0.45f, 0.6f, base.a);
@@ -91,8 +99,10 @@ static void canes(wo_builder *b)
 static void wires(wo_builder *b)
 {
     enum { EACH = 15, COUNT = 2 * EACH, POINTS = 9 };
-    static const wo_texture zinc = {.kind = WO_TEXTURE_MARBLE, .a = {0.3f, 0.32f, 0.34f},
-                                    .b = {0.5f, 0.5f, 0.48f}, .scale = 60};
+    static const wo_texture zinc = {.kind = WO_TEXTURE_MARBLE,
+                                    .a = {0.3f, 0.32f, 0.34f},
+                                    .b = {0.5f, 0.5f, 0.48f},
+                                    .scale = 60};
     float points[COUNT * POINTS][4];
     for (int i = 0; i < COUNT; i++) {
         const float slope = i < EACH ? 1.0f : -1.0f;
@@ -115,8 +125,8 @@ static void wires(wo_builder *b)
 static void vine(wo_builder *b)
 {
     enum { COUNT = 46 };
-    static const wo_texture leaf = {.kind = WO_TEXTURE_PLAIN, .a = {1, 1, 1}, .scale = 12,
-                                    .grain = 0.35f, .grain_scale = 2};
+    static const wo_texture leaf = {
+        .kind = WO_TEXTURE_PLAIN, .a = {1, 1, 1}, .scale = 12, .grain = 0.35f, .grain_scale = 2};
     wo_vec corners[COUNT][4];
     float tints[COUNT][3];
     for (int i = 0; i < COUNT; i++) {
@@ -125,10 +135,10 @@ static void vine(wo_builder *b)
         const wo_vec p = wo_build_view(
             b, (right ? 0.82f : -0.85f) + wo_build_random(b, -0.22f, 0.22f) * (1.2f - t),
             1.1f - (right ? 1.1f : 1.7f) * t, wo_build_random(b, 1.0f, 1.14f));
-        const wo_vec tip = wo_vec_unit((wo_vec){wo_build_random(b, -0.8f, 0.8f), -1,
-                                                wo_build_random(b, -0.3f, 0.5f)});
-        const wo_vec side = wo_vec_unit(
-            wo_vec_cross(tip, (wo_vec){wo_build_random(b, -0.5f, 0.5f), 0.2f, 1}));
+        const wo_vec tip = wo_vec_unit(
+            (wo_vec){wo_build_random(b, -0.8f, 0.8f), -1, wo_build_random(b, -0.3f, 0.5f)});
+        const wo_vec side =
+            wo_vec_unit(wo_vec_cross(tip, (wo_vec){wo_build_random(b, -0.5f, 0.5f), 0.2f, 1}));
         corners[i][0] = p;
         corners[i][1] = wo_vec_along(wo_vec_along(p, tip, 0.4f * size), side, 0.42f * size);
         corners[i][2] = wo_vec_along(p, tip, size);
@@ -143,8 +153,10 @@ static void vine(wo_builder *b)
 
 void wo_scene_fence(wo_builder *b)
 {
-    static const wo_sky sky = {.zenith = {0.4f, 0.5f, 0.7f}, .horizon = {0.4f, 0.42f, 0.44f},
-                               .ground = {0.12f, 0.11f, 0.08f}, .bounce = {0.1f, 0.09f, 0.07f}};
+    static const wo_sky sky = {.zenith = {0.4f, 0.5f, 0.7f},
+                               .horizon = {0.4f, 0.42f, 0.44f},
+                               .ground = {0.12f, 0.11f, 0.08f},
+                               .bounce = {0.1f, 0.09f, 0.07f}};
     static const float sun[3] = {0.95f, 0.82f, 0.62f};
     wo_build_camera(b, 1.15f, 3.5f);
     wo_build_sky(b, &sky);

@@ -15,8 +15,10 @@ static void set_point(float out[4], wo_vec p, float radius)
 /* A ball with hair that starts upright and then hangs. */
 static void head(wo_builder *b)
 {
-    static const wo_texture skin = {.kind = WO_TEXTURE_MARBLE, .a = {0.3f, 0.16f, 0.08f},
-                                    .b = {0.45f, 0.26f, 0.14f}, .scale = 12};
+    static const wo_texture skin = {.kind = WO_TEXTURE_MARBLE,
+                                    .a = {0.3f, 0.16f, 0.08f},
+                                    .b = {0.45f, 0.26f, 0.14f},
+                                    .scale = 12};
     static const wo_texture hair = {.kind = WO_TEXTURE_PLAIN, .a = {1, 1, 1}, .scale = 1};
     const wo_vec centre = {0.03f, 0.98f, -2.05f};
     const float radius = 0.24f, golden = WO_PI * (3 - sqrtf(5));
@@ -77,22 +79,29 @@ static void grass(wo_builder *b)
         tints[i][2] = value * 0.2f;
     }
     if (points && tints)
-        wo_build_rods(b, (const float(*)[4])points, BLADES, BLADE_POINTS,
-                      (const float(*)[3])tints, &green);
+        wo_build_rods(b, (const float(*)[4])points, BLADES, BLADE_POINTS, (const float(*)[3])tints,
+                      &green);
     wo_build_free(b, points);
     wo_build_free(b, tints);
 }
 
 void wo_scene_hair(wo_builder *b)
 {
-    static const wo_sky sky = {.zenith = {0.45f, 0.52f, 0.65f}, .horizon = {0.4f, 0.4f, 0.42f},
-                               .ground = {0.1f, 0.1f, 0.07f}, .bounce = {0.06f, 0.05f, 0.04f}};
+    static const wo_sky sky = {.zenith = {0.45f, 0.52f, 0.65f},
+                               .horizon = {0.4f, 0.4f, 0.42f},
+                               .ground = {0.1f, 0.1f, 0.07f},
+                               .bounce = {0.06f, 0.05f, 0.04f}};
     static const float sun[3] = {1.1f, 0.95f, 0.7f};
-    static const wo_texture earth = {.kind = WO_TEXTURE_MARBLE, .a = {0.14f, 0.1f, 0.06f},
-                                     .b = {0.2f, 0.22f, 0.09f}, .scale = 6, .grain = 0.4f,
+    static const wo_texture earth = {.kind = WO_TEXTURE_MARBLE,
+                                     .a = {0.14f, 0.1f, 0.06f},
+                                     .b = {0.2f, 0.22f, 0.09f},
+                                     .scale = 6,
+                                     .grain = 0.4f,
                                      .grain_scale = 3};
-    static const wo_texture backdrop = {.kind = WO_TEXTURE_MARBLE, .a = {0.05f, 0.16f, 0.12f},
-                                        .b = {0.75f, 0.62f, 0.28f}, .scale = 1.7f};
+    static const wo_texture backdrop = {.kind = WO_TEXTURE_MARBLE,
+                                        .a = {0.05f, 0.16f, 0.12f},
+                                        .b = {0.75f, 0.62f, 0.28f},
+                                        .scale = 1.7f};
     wo_build_camera(b, 1.05f, 2.5f);
     wo_build_sky(b, &sky);
     wo_build_sun(b, 60, 48, 2, sun);

@@ -13,16 +13,24 @@ static const float figure[][2] = {
 
 static void street(wo_builder *b)
 {
-    static const wo_texture ground = {.kind = WO_TEXTURE_BRICKS, .a = {0.16f, 0.15f, 0.16f},
-                                      .b = {0.05f, 0.05f, 0.06f}, .scale = 3.5f, .grain = 0.4f,
+    static const wo_texture ground = {.kind = WO_TEXTURE_BRICKS,
+                                      .a = {0.16f, 0.15f, 0.16f},
+                                      .b = {0.05f, 0.05f, 0.06f},
+                                      .scale = 3.5f,
+                                      .grain = 0.4f,
                                       .grain_scale = 0.8f};
-    static const wo_texture bricks = {.kind = WO_TEXTURE_BRICKS, .a = {0.32f, 0.16f, 0.11f},
-                                      .b = {0.16f, 0.15f, 0.15f}, .scale = 2.6f, .grain = 0.3f,
+    static const wo_texture bricks = {.kind = WO_TEXTURE_BRICKS,
+                                      .a = {0.32f, 0.16f, 0.11f},
+                                      .b = {0.16f, 0.15f, 0.15f},
+                                      .scale = 2.6f,
+                                      .grain = 0.3f,
                                       .grain_scale = 0.9f};
-    static const wo_texture door = {.kind = WO_TEXTURE_STRIPES, .a = {0.05f, 0.22f, 0.3f},
-                                    .b = {0.04f, 0.13f, 0.2f}, .scale = 5};
-    static const wo_texture iron = {.kind = WO_TEXTURE_PLAIN, .a = {0.12f, 0.13f, 0.14f},
-                                    .scale = 1};
+    static const wo_texture door = {.kind = WO_TEXTURE_STRIPES,
+                                    .a = {0.05f, 0.22f, 0.3f},
+                                    .b = {0.04f, 0.13f, 0.2f},
+                                    .scale = 5};
+    static const wo_texture iron = {
+        .kind = WO_TEXTURE_PLAIN, .a = {0.12f, 0.13f, 0.14f}, .scale = 1};
     const wo_vec across_ground = {0, 0, -12}; /* bricks lie along the street */
     wo_build_ground(b, (wo_vec){0, 0, -10}, (wo_vec){22, 0, 0}, across_ground, &ground);
     wo_build_panel(b, (wo_vec){0, 3.6f, -14}, (wo_vec){14, 0, 0}, (wo_vec){0, 4, 0}, &bricks);
@@ -39,14 +47,18 @@ static void street(wo_builder *b)
 
 static void subject(wo_builder *b)
 {
-    static const wo_texture stone = {.kind = WO_TEXTURE_MARBLE, .a = {0.42f, 0.33f, 0.25f},
-                                     .b = {0.7f, 0.62f, 0.52f}, .scale = 9};
-    static const wo_texture post = {.kind = WO_TEXTURE_VEINS, .a = {0.2f, 0.36f, 0.3f},
-                                    .b = {0.5f, 0.6f, 0.5f}, .scale = 6};
-    static const wo_texture ball = {.kind = WO_TEXTURE_CHECKER, .a = {0.55f, 0.1f, 0.45f},
-                                    .b = {0.3f, 0.32f, 0.08f}, .scale = 16};
-    static const wo_texture box = {.kind = WO_TEXTURE_DOTS, .a = {0.08f, 0.4f, 0.08f},
-                                   .b = {0.7f, 0.25f, 0.6f}, .scale = 12};
+    static const wo_texture stone = {.kind = WO_TEXTURE_MARBLE,
+                                     .a = {0.42f, 0.33f, 0.25f},
+                                     .b = {0.7f, 0.62f, 0.52f},
+                                     .scale = 9};
+    static const wo_texture post = {
+        .kind = WO_TEXTURE_VEINS, .a = {0.2f, 0.36f, 0.3f}, .b = {0.5f, 0.6f, 0.5f}, .scale = 6};
+    static const wo_texture ball = {.kind = WO_TEXTURE_CHECKER,
+                                    .a = {0.55f, 0.1f, 0.45f},
+                                    .b = {0.3f, 0.32f, 0.08f},
+                                    .scale = 16};
+    static const wo_texture box = {
+        .kind = WO_TEXTURE_DOTS, .a = {0.08f, 0.4f, 0.08f}, .b = {0.7f, 0.25f, 0.6f}, .scale = 12};
     wo_build_box(b, &(wo_pose){{-0.28f, 0.35f, -3}, 20, 0, 0}, (wo_vec){0.2f, 0.4f, 0.2f}, &post);
     wo_build_lathe(b, &(wo_pose){{-0.28f, 0.75f, -3}, 0, 0, 0}, figure, WO_COUNT(figure), &stone);
     wo_build_ball(b, &(wo_pose){{0.48f, 1.02f, -3.3f}, 20, 20, 0}, 0.17f, &ball);
@@ -56,8 +68,8 @@ static void subject(wo_builder *b)
 
 static void sprig(wo_builder *b, wo_vec from, wo_vec along, int count)
 {
-    static const wo_texture leaf = {.kind = WO_TEXTURE_PLAIN, .a = {1, 1, 1}, .scale = 9,
-                                    .grain = 0.35f, .grain_scale = 2};
+    static const wo_texture leaf = {
+        .kind = WO_TEXTURE_PLAIN, .a = {1, 1, 1}, .scale = 9, .grain = 0.35f, .grain_scale = 2};
     enum { LEAVES_MAX = 40 };
     wo_vec corners[LEAVES_MAX][4];
     float tints[LEAVES_MAX][3];
@@ -67,11 +79,11 @@ static void sprig(wo_builder *b, wo_vec from, wo_vec along, int count)
         p = wo_vec_add(p, (wo_vec){wo_build_random(b, -0.06f, 0.06f),
                                    wo_build_random(b, -0.05f, 0.05f),
                                    wo_build_random(b, -0.09f, 0.09f)});
-        const wo_vec tip = wo_vec_unit((wo_vec){wo_build_random(b, -1, 1),
-                                                wo_build_random(b, -1, 0.4f),
-                                                wo_build_random(b, -0.6f, 0.6f)});
-        const wo_vec side = wo_vec_unit(
-            wo_vec_cross(tip, (wo_vec){wo_build_random(b, -0.3f, 0.3f), 0.3f, 1}));
+        const wo_vec tip =
+            wo_vec_unit((wo_vec){wo_build_random(b, -1, 1), wo_build_random(b, -1, 0.4f),
+                                 wo_build_random(b, -0.6f, 0.6f)});
+        const wo_vec side =
+            wo_vec_unit(wo_vec_cross(tip, (wo_vec){wo_build_random(b, -0.3f, 0.3f), 0.3f, 1}));
         corners[i][0] = p;
         corners[i][1] = wo_vec_along(wo_vec_along(p, tip, 0.45f * length), side, 0.3f * length);
         corners[i][2] = wo_vec_along(p, tip, length);
@@ -108,8 +120,8 @@ static void hang(wo_builder *b, lamps *l, wo_vec at, float radius, float strengt
 static void garland(wo_builder *b, lamps *l, wo_vec from, wo_vec to, float sag, int count,
                     float radius, float strength)
 {
-    static const wo_texture wire = {.kind = WO_TEXTURE_PLAIN, .a = {0.015f, 0.015f, 0.015f},
-                                    .scale = 1};
+    static const wo_texture wire = {
+        .kind = WO_TEXTURE_PLAIN, .a = {0.015f, 0.015f, 0.015f}, .scale = 1};
     enum { POINTS = 17 };
     float points[POINTS][4];
     for (int i = 0; i < POINTS; i++) {

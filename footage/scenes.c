@@ -4,7 +4,7 @@
 
 const wo_wave_plane wo_two_planes[2] = {
     {WO_TWO_PLANES_FRONT,
-     WO_TWO_PLANES_EDGE * WO_TWO_PLANES_FRONT - 2,
+     WO_TWO_PLANES_EDGE *WO_TWO_PLANES_FRONT - 2,
      2,
      {.kind = WO_TEXTURE_WAVES, .a = {0.55f, 0.1f, 0.04f}, .b = {1, 0.6f, 0.2f}, .scale = 9}},
     {WO_TWO_PLANES_BACK,
@@ -45,8 +45,9 @@ const wo_scene_entry wo_scene_entries[] = {
     {{"still-life", "A room of solids on a checkered floor, some of them close to the lens.", 960,
       540, 50, 1.4, 3.3},
      wo_scene_still_life},
-    {{"night-lights", "A dark street with lamps of radiance 20 to 2000 before and behind the focus.",
-      640, 360, 50, 1.2, 3},
+    {{"night-lights",
+      "A dark street with lamps of radiance 20 to 2000 before and behind the focus.", 640, 360, 50,
+      1.2, 3},
      wo_scene_night_lights},
     {{"fence", "A garden seen through a wire fence that is close and out of focus.", 960, 540, 50,
       1.8, 6},

@@ -15,8 +15,8 @@ void wo_scene_fence(wo_builder *b);
 void wo_scene_hair(wo_builder *b);
 
 /* Facts about the scenes with closed forms; all in camera coordinates, metres.
-   two-planes: planes across the axis; the front one reaches from the left to a straight vertical edge,
-   which the picture shows at width / 2 + F edge. The textures are waves of one cell round
+   two-planes: planes across the axis; the front one reaches from the left to a straight vertical
+   edge, which the picture shows at width / 2 + F edge. The textures are waves of one cell round
    (centre_x, 0), colour a + (b - a) (0.5 + 0.25 (sin 2 pi X + sin 2 pi Y)), X and Y in cells. */
 #define WO_TWO_PLANES_FRONT 0.8f
 #define WO_TWO_PLANES_BACK  4.0f

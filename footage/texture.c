@@ -43,8 +43,7 @@ static float ease(float t)
 float wo_noise_at(const wo_noise *noise, wo_vec q)
 {
     const int ix = floor_int(q.x), iy = floor_int(q.y), iz = floor_int(q.z);
-    const float tx = ease(q.x - (float)ix), ty = ease(q.y - (float)iy),
-                tz = ease(q.z - (float)iz);
+    const float tx = ease(q.x - (float)ix), ty = ease(q.y - (float)iy), tz = ease(q.z - (float)iz);
     float side[2];
     for (int k = 0; k < 2; k++) {
         const float a = lattice(noise, cell_hash(ix, iy, iz + k));
@@ -110,7 +109,8 @@ static float bricks(wo_vec q, float *shade)
     const float x = q.x * 0.5f + ((row & 1) ? 0.5f : 0.0f);
     const int column = floor_int(x);
     *shade = (float)(wo_stir(cell_hash(column, row, 3), 5) & 1023u) / 1023;
-    const float ex = 2 * (0.5f - fabsf(fraction(x) - 0.5f)), ey = 0.5f - fabsf(fraction(q.y) - 0.5f);
+    const float ex = 2 * (0.5f - fabsf(fraction(x) - 0.5f)),
+                ey = 0.5f - fabsf(fraction(q.y) - 0.5f);
     return step(fminf(ex, ey) - 0.06f, 0.04f);
 }
 

@@ -19,14 +19,14 @@ typedef enum wo_texture_kind {
     WO_TEXTURE_BOARDS,  /* in the xz plane: boards along z in shades between a and b */
     WO_TEXTURE_RINGS,   /* round the y axis, like wood */
     WO_TEXTURE_CHART,   /* in the xz plane: checker, discs, rules and crosses in turn */
-    WO_TEXTURE_WAVES    /* half way from a to b, plus sin(2 pi x) and sin(2 pi y) of a quarter each */
+    WO_TEXTURE_WAVES /* half way from a to b, plus sin(2 pi x) and sin(2 pi y) of a quarter each */
 } wo_texture_kind;
 
 typedef struct wo_texture {
     wo_texture_kind kind;
-    float a[3], b[3]; /* scene-linear Rec.709 reflectances, 0..1 */
-    float scale;      /* cells per metre */
-    float grain;      /* 0..1: clouds that darken and brighten by this much */
+    float a[3], b[3];  /* scene-linear Rec.709 reflectances, 0..1 */
+    float scale;       /* cells per metre */
+    float grain;       /* 0..1: clouds that darken and brighten by this much */
     float grain_scale; /* cells of the clouds per cell of the texture */
 } wo_texture;
 

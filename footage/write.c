@@ -13,12 +13,10 @@ static wo_status set_camera(const wo_footage *f, wo_io_part *part, wo_error *err
     const struct {
         const char *name;
         double value;
-    } numbers[] = {{"wideopen:focalLength", o->focal_mm},
-                   {"wideopen:fStop", o->f_stop},
-                   {"wideopen:focusDistance", o->focus_m},
-                   {"wideopen:sensorWidth", WO_FOOTAGE_SENSOR_MM},
-                   {"wideopen:blades", o->blades},
-                   {"wideopen:rotation", o->rotation}};
+    } numbers[] = {
+        {"wideopen:focalLength", o->focal_mm},  {"wideopen:fStop", o->f_stop},
+        {"wideopen:focusDistance", o->focus_m}, {"wideopen:sensorWidth", WO_FOOTAGE_SENSOR_MM},
+        {"wideopen:blades", o->blades},         {"wideopen:rotation", o->rotation}};
     for (size_t i = 0; i < WO_COUNT(numbers); i++)
         WO_TRY(wo_io_part_set_number(part, numbers[i].name, numbers[i].value, error));
     char seed[24];
@@ -80,8 +78,8 @@ static wo_status write_layers(const wo_footage *f, const char *folder, wo_error 
         if (status != WO_OK)
             break;
         snprintf(name, sizeof name, "layer%d_depth", k + 1);
-        status = fill_part(f, name, &f->layer_depth[k], depth_names, &file->parts[2 * k + 1],
-                           error);
+        status =
+            fill_part(f, name, &f->layer_depth[k], depth_names, &file->parts[2 * k + 1], error);
     }
     return save(status, file, folder, WO_FOOTAGE_LAYERS, WO_IO_AUTO, error);
 }

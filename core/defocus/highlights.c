@@ -16,12 +16,12 @@ typedef struct take_job {
     size_t sheet_count;
     const wo_lens *lens;
     wo_highlights *out;
-    wo_rect tiles;   /* of counts: one more on all sides than out->tiles */
+    wo_rect tiles; /* of counts: one more on all sides than out->tiles */
     size_t *counts;
 } take_job;
 
-/* Vergences of highlights are rounded to steps of 1/QUANTUM px of blur, so that few shares are worked
-   out; CACHE of them are kept. */
+/* Vergences of highlights are rounded to steps of 1/QUANTUM px of blur, so that few shares are
+   worked out; CACHE of them are kept. */
 #define QUANTUM 32.0
 enum { CACHE = 64 };
 
@@ -32,8 +32,8 @@ typedef struct share_cache {
 } share_cache;
 
 /* Share of the light that reaches one pixel for a unit of connect density, so that the sum over all
-   pixels is 1. Large pictures of the aperture are counted on every step-th pixel of each row, each row
-   from another start. */
+   pixels is 1. Large pictures of the aperture are counted on every step-th pixel of each row, each
+   row from another start. */
 static double share(const wo_lens *lens, float v, float reach)
 {
     enum { COUNTED = 128 };
@@ -138,8 +138,8 @@ static void take_tile(void *user, size_t index, unsigned worker)
     }
 }
 
-/* True when so many pixels of a tile of out->tiles and the eight around it are bright, of those that
-   there are, that they are an area of light. */
+/* True when so many pixels of a tile of out->tiles and the eight around it are bright, of those
+   that there are, that they are an area of light. */
 static bool crowded(const take_job *job, int32_t tx, int32_t ty)
 {
     size_t bright = 0;
@@ -163,13 +163,12 @@ wo_status wo_highlights_take(const wo_context *context, wo_sheet *sheets, size_t
     *highlights = (wo_highlights){0};
     if (!lens->connect || wo_rect_empty(area))
         return WO_OK;
-    const wo_rect tiles = {
-        floor_div(area.x1, WO_TILE_WIDTH), floor_div(area.y1, WO_TILE_HEIGHT),
-        floor_div(area.x2 - 1, WO_TILE_WIDTH) + 1, floor_div(area.y2 - 1, WO_TILE_HEIGHT) + 1};
+    const wo_rect tiles = {floor_div(area.x1, WO_TILE_WIDTH), floor_div(area.y1, WO_TILE_HEIGHT),
+                           floor_div(area.x2 - 1, WO_TILE_WIDTH) + 1,
+                           floor_div(area.y2 - 1, WO_TILE_HEIGHT) + 1};
     highlights->tiles = tiles;
     take_job job = {sheets, count, lens, highlights, wo_rect_grow(tiles, 1, 1), NULL};
-    const size_t counted =
-        (size_t)wo_rect_width(job.tiles) * (size_t)wo_rect_height(job.tiles);
+    const size_t counted = (size_t)wo_rect_width(job.tiles) * (size_t)wo_rect_height(job.tiles);
     const size_t taken = (size_t)wo_rect_width(tiles) * (size_t)wo_rect_height(tiles);
     wo_status status = WO_ERR_NOMEM;
     if (!(job.counts = wo_new(context, error, counted, sizeof *job.counts)))
@@ -182,8 +181,7 @@ wo_status wo_highlights_take(const wo_context *context, wo_sheet *sheets, size_t
         for (int32_t tx = tiles.x1; tx < tiles.x2; tx++, i++) {
             const size_t own = job.counts[(size_t)((ty - job.tiles.y1) * wo_rect_width(job.tiles) +
                                                    tx - job.tiles.x1)];
-            highlights->first[i + 1] = highlights->first[i] +
-                                       (crowded(&job, tx, ty) ? 0 : own);
+            highlights->first[i + 1] = highlights->first[i] + (crowded(&job, tx, ty) ? 0 : own);
         }
     }
     highlights->count = highlights->first[taken];
@@ -210,8 +208,8 @@ void wo_highlights_destroy(const wo_context *context, wo_highlights *highlights)
     *highlights = (wo_highlights){0};
 }
 
-/* A patch hides a highlight when its blur radius says that it is nearer by so many px: little for other
-   sheets, more for the highlight's own, which goes on beside it. */
+/* A patch hides a highlight when its blur radius says that it is nearer by so many px: little for
+   other sheets, more for the highlight's own, which goes on beside it. */
 #define HIDES_PX     0.05f
 #define HIDES_OWN_PX 0.5f
 
@@ -221,8 +219,8 @@ static float hides_from(const wo_highlight *h, int sheet, float px_per_dioptre)
     return h->v + (sheet == h->sheet ? HIDES_OWN_PX : HIDES_PX) / px_per_dioptre;
 }
 
-/* Light that gets through from a highlight to pixel (x, y) along the line; the rules of march.h, one ray
-   at a time. */
+/* Light that gets through from a highlight to pixel (x, y) along the line; the rules of march.h,
+   one ray at a time. */
 static float visible(const wo_stack *stack, int32_t x, int32_t y, const double line[4],
                      const wo_highlight *h, float v_near, float px_per_dioptre)
 {
@@ -281,21 +279,21 @@ int64_t wo_highlights_add(const wo_highlights *highlights, const wo_stack *stack
     const float px_per_dioptre = (float)lens->px_per_dioptre;
     const int32_t reach = (int32_t)ceilf(highlights->reach);
     const wo_rect grown = wo_rect_grow(tile, reach, reach);
-    const wo_rect tiles = wo_rect_intersect(
-        highlights->tiles,
-        (wo_rect){floor_div(grown.x1, WO_TILE_WIDTH), floor_div(grown.y1, WO_TILE_HEIGHT),
-                  floor_div(grown.x2 - 1, WO_TILE_WIDTH) + 1,
-                  floor_div(grown.y2 - 1, WO_TILE_HEIGHT) + 1});
+    const wo_rect tiles = wo_rect_intersect(highlights->tiles,
+                                            (wo_rect){floor_div(grown.x1, WO_TILE_WIDTH),
+                                                      floor_div(grown.y1, WO_TILE_HEIGHT),
+                                                      floor_div(grown.x2 - 1, WO_TILE_WIDTH) + 1,
+                                                      floor_div(grown.y2 - 1, WO_TILE_HEIGHT) + 1});
     for (int32_t ty = tiles.y1; ty < tiles.y2; ty++) {
-        const size_t row = (size_t)(ty - highlights->tiles.y1) *
-                           (size_t)wo_rect_width(highlights->tiles);
+        const size_t row =
+            (size_t)(ty - highlights->tiles.y1) * (size_t)wo_rect_width(highlights->tiles);
         const size_t from = highlights->first[row + (size_t)(tiles.x1 - highlights->tiles.x1)];
         const size_t to = highlights->first[row + (size_t)(tiles.x2 - highlights->tiles.x1)];
         for (size_t i = from; i < to; i++) {
             const wo_highlight *h = &highlights->list[i];
             const int32_t r = (int32_t)ceilf(h->reach);
-            const wo_rect disc = wo_rect_intersect(
-                tile, (wo_rect){h->x - r, h->y - r, h->x + r + 1, h->y + r + 1});
+            const wo_rect disc =
+                wo_rect_intersect(tile, (wo_rect){h->x - r, h->y - r, h->x + r + 1, h->y + r + 1});
             for (int32_t y = disc.y1; y < disc.y2; y++) {
                 for (int32_t x = disc.x1; x < disc.x2; x++) {
                     double line[4];

@@ -12,7 +12,8 @@
    noise, exact energy. (Sampling the lights in place of the lens, as path tracers do.) */
 #define WO_HIGHLIGHT_LEVEL  4.0f /* scene-linear; 1 is diffuse white */
 #define WO_HIGHLIGHT_RADIUS 2.0  /* px; smaller blur is left to the rays */
-#define WO_HIGHLIGHT_CROWD  (2.0 / 3) /* of the pixels of 3 x 3 tiles: more are an area, not points */
+#define WO_HIGHLIGHT_CROWD                                                                         \
+    (2.0 / 3) /* of the pixels of 3 x 3 tiles: more are an area, not points */
 
 typedef struct wo_highlight {
     int32_t x, y;
@@ -31,15 +32,16 @@ typedef struct wo_highlights {
     size_t *first; /* [tiles + 1] */
 } wo_highlights;
 
-/* Takes the highlights within area, on the grid of tiles, out of the sheets, which must also hold one
-   tile more on all sides, as far as the extent goes. Does nothing for lenses that cannot connect. */
+/* Takes the highlights within area, on the grid of tiles, out of the sheets, which must also hold
+   one tile more on all sides, as far as the extent goes. Does nothing for lenses that cannot
+   connect. */
 WO_NODISCARD wo_status wo_highlights_take(const wo_context *context, wo_sheet *sheets, size_t count,
                                           wo_rect area, const wo_lens *lens,
                                           wo_highlights *highlights, wo_error *error);
 void wo_highlights_destroy(const wo_context *context, wo_highlights *highlights);
 
-/* Adds their light to the pixels of one tile: sums[y][x][rgb]. v_near: nearest surface of the tile's
-   footprint. Returns the number of connecting rays. */
+/* Adds their light to the pixels of one tile: sums[y][x][rgb]. v_near: nearest surface of the
+   tile's footprint. Returns the number of connecting rays. */
 int64_t wo_highlights_add(const wo_highlights *highlights, const wo_stack *stack,
                           const wo_lens *lens, wo_rect tile, float v_near,
                           float sums[WO_TILE_HEIGHT][WO_TILE_WIDTH][3]);

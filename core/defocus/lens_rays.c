@@ -76,13 +76,13 @@ static void classify_row(void *user, size_t index, unsigned worker)
     const wo_rect tiles = job->rays->tiles;
     const size_t columns = (size_t)wo_rect_width(tiles);
     for (size_t i = 0; i < columns; i++)
-        job->rays->tile[index * columns + i] = classify(
-            job->rays, tiles.x1 + (int32_t)i, tiles.y1 + (int32_t)index, job->reach);
+        job->rays->tile[index * columns + i] =
+            classify(job->rays, tiles.x1 + (int32_t)i, tiles.y1 + (int32_t)index, job->reach);
 }
 
-wo_status wo_lens_rays_create(const wo_context *context, const wo_stack *stack,
-                              const wo_lens *lens, const wo_highlights *highlights, wo_rect window,
-                              double max_reach, wo_lens_rays *rays, wo_error *error)
+wo_status wo_lens_rays_create(const wo_context *context, const wo_stack *stack, const wo_lens *lens,
+                              const wo_highlights *highlights, wo_rect window, double max_reach,
+                              wo_lens_rays *rays, wo_error *error)
 {
     *rays = (wo_lens_rays){.stack = stack,
                            .lens = lens,
@@ -90,8 +90,8 @@ wo_status wo_lens_rays_create(const wo_context *context, const wo_stack *stack,
                            .kernels = wo_march_choose(wo_cpu_detect(context->cpu)),
                            .tiles = wo_tiles_of(window)};
     const size_t rows = (size_t)wo_rect_height(rays->tiles);
-    rays->tile = wo_new(context, error, (size_t)wo_rect_width(rays->tiles) * rows,
-                        sizeof *rays->tile);
+    rays->tile =
+        wo_new(context, error, (size_t)wo_rect_width(rays->tiles) * rows, sizeof *rays->tile);
     if (!rays->tile)
         return WO_ERR_NOMEM;
     classify_job job = {rays, max_reach};
@@ -167,19 +167,16 @@ enum { PIECE = 512 };
 
 /* The whole pencil, piece by piece; false when stopped. */
 static bool trace(const wo_context *context, wo_march_function *kernel, const wo_march_view *view,
-                  int32_t x, int32_t y, int run_index, const wo_pencil *pencil,
-                  wo_march_sums *sums)
+                  int32_t x, int32_t y, int run_index, const wo_pencil *pencil, wo_march_sums *sums)
 {
     *sums = (wo_march_sums){0};
     for (int first = 0; first < pencil->count; first += PIECE) {
         wo_march_sums part;
         const int left = pencil->count - first;
-        const wo_pencil piece = {left < PIECE ? left : PIECE,
-                                 pencil->ax + first,
-                                 pencil->ay + first,
-                                 pencil->bx + first,
-                                 pencil->by + first,
-                                 pencil->weight ? pencil->weight + first : NULL};
+        const wo_pencil piece = {
+            left < PIECE ? left : PIECE, pencil->ax + first,
+            pencil->ay + first,          pencil->bx + first,
+            pencil->by + first,          pencil->weight ? pencil->weight + first : NULL};
         if (wo_aborted(context))
             return false;
         kernel(view, x, y, run_index, &piece, &part);
@@ -231,8 +228,8 @@ bool wo_lens_rays_tile(const wo_lens_rays *rays, const wo_context *context, int3
     }
     if (rays->highlights && rays->highlights->count > 0) {
         float light[WO_TILE_HEIGHT][WO_TILE_WIDTH][3] = {0};
-        report->rays += wo_highlights_add(rays->highlights, stack, rays->lens, rect, tile->v_near,
-                                          light);
+        report->rays +=
+            wo_highlights_add(rays->highlights, stack, rays->lens, rect, tile->v_near, light);
         for (int32_t y = 0; y < WO_TILE_HEIGHT; y++)
             for (int32_t x = 0; x < WO_TILE_WIDTH; x++)
                 for (int k = 0; k < 3; k++)

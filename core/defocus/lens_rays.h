@@ -10,8 +10,8 @@
 /* The renderer of lens rays: a stack, a lens, a class for every tile; const once made. */
 typedef struct wo_ray_tile {
     wo_tile_class class;
-    float v_near; /* nearest surface of the footprint */
-    float reach;  /* px */
+    float v_near;                    /* nearest surface of the footprint */
+    float reach;                     /* px */
     wo_bounds bounds[WO_SHEETS_MAX]; /* of each sheet over its footprint */
 } wo_ray_tile;
 
@@ -42,8 +42,8 @@ WO_NODISCARD wo_status wo_lens_rays_create(const wo_context *context, const wo_s
                                            wo_error *error);
 void wo_lens_rays_destroy(const wo_context *context, wo_lens_rays *rays);
 
-/* One tile, whole: premultiplied colour, and the fraction of guessed light of each pixel. The report's
-   rays, steps and tiles are added to. Any thread. */
+/* One tile, whole: premultiplied colour, and the fraction of guessed light of each pixel. The
+   report's rays, steps and tiles are added to. Any thread. */
 typedef struct wo_tile_pixels {
     float c[WO_TILE_HEIGHT][WO_TILE_WIDTH][4];
     float guessed[WO_TILE_HEIGHT][WO_TILE_WIDTH];

@@ -12,11 +12,12 @@
    pixel of its longer axis at a time, and looks at every sheet at once. The patch of a pixel is
    hit where the ray, at the patch's vergence, is within half a pixel of it, or where it passed from
    before to behind a surface that is connected (no step of more than WO_CONNECT_PX). The nearest
-   hit comes first; coverage below 1 lets the rest of the light through. Light that is left where the
-   scene is opaque saw something that no sheet holds: the ray counts only as far as it was stopped. */
+   hit comes first; coverage below 1 lets the rest of the light through. Light that is left where
+   the scene is opaque saw something that no sheet holds: the ray counts only as far as it was
+   stopped. */
 #define WO_CONNECT_PX 1.5f
-/* Up to so many px from the pixel itself, colours are interpolated between pixels; farther out the blur
-   hides the difference. */
+/* Up to so many px from the pixel itself, colours are interpolated between pixels; farther out the
+   blur hides the difference. */
 #define WO_SMOOTH_PX 2
 /* Light below this fraction is not followed further. */
 #define WO_LIGHT_MIN (1.0f / 1024)
@@ -27,8 +28,8 @@ typedef struct wo_march_view {
     const float *v[WO_SHEETS_MAX];
     const float *c[WO_SHEETS_MAX][4];
     bool guessed[WO_SHEETS_MAX];
-    const float *opaque; /* 1 where the scene as given lets no light through, else 0 */
-    ptrdiff_t run, row;  /* of the stack */
+    const float *opaque;             /* 1 where the scene as given lets no light through, else 0 */
+    ptrdiff_t run, row;              /* of the stack */
     wo_bounds bounds[WO_SHEETS_MAX]; /* of each sheet over the footprint of the tile */
     const wo_bounds *spans[WO_SHEETS_MAX];
     int32_t span_columns;
@@ -43,8 +44,8 @@ typedef struct wo_march_sums {
     int64_t steps;           /* lookups of a sheet, each for one pixel */
 } wo_march_sums;
 
-/* (x, y): place of the first pixel of a block relative to the stack's area, x a multiple of WO_BLOCK;
-   run_index 0..3 picks the vector of the block. sums are overwritten. */
+/* (x, y): place of the first pixel of a block relative to the stack's area, x a multiple of
+   WO_BLOCK; run_index 0..3 picks the vector of the block. sums are overwritten. */
 typedef void wo_march_function(const wo_march_view *view, int32_t x, int32_t y, int run_index,
                                const wo_pencil *pencil, wo_march_sums *sums);
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
 
-/* The march kernels over the vectors of simd_*.h; compiled once for each instruction set by the file
-   that includes it after them and defines WO_MARCH_KERNELS. See march.h for what they do. */
+/* The march kernels over the vectors of simd_*.h; compiled once for each instruction set by the
+   file that includes it after them and defines WO_MARCH_KERNELS. See march.h for what they do. */
 
 #include "defocus/march.h"
 
@@ -59,10 +59,8 @@ WO_SIMD void sample_smooth(const wo_march_view *view, int s, int32_t x, int32_t 
     const vf one = v_set(1);
     const vf xx = v_mul(tx, tx);
     const vf yy = v_mul(ty, ty);
-    const vf wx[3] = {v_sub(xx, v_mul(half, tx)), v_sub(one, v_add(xx, xx)),
-                      v_fma(half, tx, xx)};
-    const vf wy[3] = {v_sub(yy, v_mul(half, ty)), v_sub(one, v_add(yy, yy)),
-                      v_fma(half, ty, yy)};
+    const vf wx[3] = {v_sub(xx, v_mul(half, tx)), v_sub(one, v_add(xx, xx)), v_fma(half, tx, xx)};
+    const vf wy[3] = {v_sub(yy, v_mul(half, ty)), v_sub(one, v_add(yy, yy)), v_fma(half, ty, yy)};
     ptrdiff_t column[3];
     for (int a = 0; a < 3; a++)
         column[a] = place(view, x, y, run_index, dx + a - 1, dy);
@@ -117,7 +115,8 @@ WO_SIMD void meet(rays *r, vm mask, const vf c[4], int is_guess)
     r->light = v_sub(r->light, stopped);
 }
 
-/* Several sheets at one step: nearest first, lane by lane; the first sheet first where they meet. */
+/* Several sheets at one step: nearest first, lane by lane; the first sheet first where they meet.
+ */
 static void meet_in_order(rays *r, hit *hits, int count, const bool *guessed)
 {
     vf is_guess[WO_SHEETS_MAX];
@@ -159,8 +158,8 @@ typedef struct way {
     line l;
     int dir;
     int first, last;
-    float base;  /* the step of a surface at vergence v is base - fall v */
-    float fall;  /* >= 0 */
+    float base; /* the step of a surface at vergence v is base - fall v */
+    float fall; /* >= 0 */
     int from[WO_SHEETS_MAX], to[WO_SHEETS_MAX]; /* no surface of the sheet is met before or after */
 } way;
 
@@ -254,9 +253,9 @@ WO_SIMD void look_ahead(const wo_march_view *view, int32_t x, int32_t y, int run
 
 /* Where a sheet stands at one step. */
 typedef struct meeting {
-    vm mask; /* lanes that meet it */
+    vm mask;    /* lanes that meet it */
     vm crossed; /* of these, passed from before to behind it since the last step */
-    vf e, e0; /* steps from here to the surface, now and one step before */
+    vf e, e0;   /* steps from here to the surface, now and one step before */
     vf v;
 } meeting;
 
@@ -284,8 +283,7 @@ WO_SIMD void colour_of(const wo_march_view *view, int s, int32_t x, int32_t y, i
     }
     /* Where along the axis the surface is met, beside this pixel's centre. */
     const vf cross_t = v_sub(v_div(m->e0, v_sub(m->e0, m->e)), v_set(1));
-    const vf t =
-        v_mask(m->mask, v_mul(v_set((float)w->dir), v_select(m->crossed, cross_t, m->e)));
+    const vf t = v_mask(m->mask, v_mul(v_set((float)w->dir), v_select(m->crossed, cross_t, m->e)));
     const vf across =
         v_fma(v_set(w->l.slope), t, v_set(w->l.n0 + w->l.slope * (float)i - (float)j));
     if (w->l.upright)
@@ -314,8 +312,8 @@ WO_SIMD void travel_one(const wo_march_view *view, int32_t x, int32_t y, int run
     for (; step <= part->last; step++) {
         const int i = w->dir * step;
         const int j = across_at(w, step);
-        const ptrdiff_t at = w->l.upright ? place(view, x, y, run_index, j, i)
-                                          : place(view, x, y, run_index, i, j);
+        const ptrdiff_t at =
+            w->l.upright ? place(view, x, y, run_index, j, i) : place(view, x, y, run_index, i, j);
         const meeting m =
             meet_sheet(plane, at, fall, v_set(w->base - (float)step), before, t->alive);
         before = m.e;
@@ -340,8 +338,8 @@ WO_SIMD void travel_many(const wo_march_view *view, int32_t x, int32_t y, int ru
     for (int step = part->first; step <= part->last; step++) {
         const int i = w->dir * step;
         const int j = across_at(w, step);
-        const ptrdiff_t at = w->l.upright ? place(view, x, y, run_index, j, i)
-                                          : place(view, x, y, run_index, i, j);
+        const ptrdiff_t at =
+            w->l.upright ? place(view, x, y, run_index, j, i) : place(view, x, y, run_index, i, j);
         const vf origin = v_set(w->base - (float)step);
         hit hits[WO_SHEETS_MAX];
         int count = 0;
@@ -349,8 +347,7 @@ WO_SIMD void travel_many(const wo_march_view *view, int32_t x, int32_t y, int ru
             if (step < part->from[a] || step > part->to[a])
                 continue;
             const int s = part->sheet[a];
-            const meeting m =
-                meet_sheet(view->v[s], at, fall, origin, t->before[s], t->alive);
+            const meeting m = meet_sheet(view->v[s], at, fall, origin, t->before[s], t->alive);
             t->before[s] = m.e;
             t->known[s] = step;
             t->steps++;
@@ -375,8 +372,8 @@ WO_SIMD void travel_many(const wo_march_view *view, int32_t x, int32_t y, int ru
 }
 
 /* The step before a sheet comes into view again, if it was out of it. */
-WO_SIMD void catch_up(const wo_march_view *view, int32_t x, int32_t y, int run_index,
-                      const way *w, vf fall, const stretch *part, travel *t)
+WO_SIMD void catch_up(const wo_march_view *view, int32_t x, int32_t y, int run_index, const way *w,
+                      vf fall, const stretch *part, travel *t)
 {
     for (int a = 0; a < part->count; a++) {
         const int s = part->sheet[a];

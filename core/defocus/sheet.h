@@ -8,8 +8,8 @@
 #include "wideopen/image.h"
 #include "wideopen/optics.h"
 
-/* A sheet: one layer of the scene made ready for the renderer. Each pixel of area is a small patch of
-   surface at vergence v, premultiplied colour and coverage c, or nothing (v is NaN). Vergences
+/* A sheet: one layer of the scene made ready for the renderer. Each pixel of area is a small patch
+   of surface at vergence v, premultiplied colour and coverage c, or nothing (v is NaN). Vergences
    inside the renderer are counted from the focus, so that they stay exact where it matters. */
 typedef struct wo_sheet {
     wo_rect area;
@@ -30,10 +30,10 @@ typedef struct wo_sheet_source {
     int depth_channel;     /* 0..3; the last one there is when the image has fewer */
     wo_alpha alpha;
     wo_depth_reading reading;
-    wo_rect extent;   /* pixels outside it do not exist */
-    wo_rect format;   /* the optical axis goes through its centre */
-    double focal_px;  /* for WO_DEPTH_RAY */
-    double stretch;   /* vertical px per horizontal px */
+    wo_rect extent;      /* pixels outside it do not exist */
+    wo_rect format;      /* the optical axis goes through its centre */
+    double focal_px;     /* for WO_DEPTH_RAY */
+    double stretch;      /* vertical px per horizontal px */
     double v_origin;     /* 1/m, taken from every vergence: the focus */
     double v_min, v_max; /* from the origin; surfaces beyond are drawn there: largest radius */
 } wo_sheet_source;
@@ -46,10 +46,10 @@ typedef struct wo_sheet_counts {
     int64_t clamped_radius;
 } wo_sheet_counts;
 
-/* Fills sheet->area (which must lie inside the extent) from the images. counted: pixels outside of it
-   are not counted. Pixels with coverage but without depth (an antialiased edge whose centre missed)
-   take the nearest surface among their neighbours in the layer; fully covered ones are infinitely
-   far. */
+/* Fills sheet->area (which must lie inside the extent) from the images. counted: pixels outside of
+   it are not counted. Pixels with coverage but without depth (an antialiased edge whose centre
+   missed) take the nearest surface among their neighbours in the layer; fully covered ones are
+   infinitely far. */
 WO_NODISCARD wo_status wo_sheet_load(const wo_context *context, const wo_sheet_source *source,
                                      wo_rect counted, wo_sheet *sheet, wo_sheet_counts *counts,
                                      wo_error *error);
@@ -71,8 +71,8 @@ WO_NODISCARD wo_status wo_sheet_split_edges(const wo_context *context, double px
                                             wo_error *error);
 #define WO_SHEET_SPLIT_MARGIN 3
 
-/* Invents what lies behind the farthest surfaces of the sheets: wherever a farther surface ends at a
-   nearer one, it is continued behind it, smoothly, up to about 2^levels px. The pull-push
+/* Invents what lies behind the farthest surfaces of the sheets: wherever a farther surface ends at
+   a nearer one, it is continued behind it, smoothly, up to about 2^levels px. The pull-push
    interpolation of Gortler et al. 1996, on a grid fixed in absolute coordinates. */
 WO_NODISCARD wo_status wo_sheet_fill_hidden(const wo_context *context, const wo_sheet *sheets,
                                             size_t count, double px_per_dioptre, int levels,

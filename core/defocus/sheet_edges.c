@@ -61,7 +61,8 @@ static float other_surface(const split_job *job, int32_t x, int32_t y)
     return best;
 }
 
-/* Mean colours of the two surfaces around (x, y), from pixels that mix nothing where there are any. */
+/* Mean colours of the two surfaces around (x, y), from pixels that mix nothing where there are any.
+ */
 static bool pure_colours(const split_job *job, int32_t x, int32_t y, float other, double own_c[4],
                          double other_c[4])
 {
@@ -134,7 +135,8 @@ static void split_pixel(split_job *job, size_t at, float other_v, double f, cons
             front[k] = (float)other[k];
             continue;
         }
-        /* What was hidden in this pixel is unmixed, or taken from beside it when too little is left. */
+        /* What was hidden in this pixel is unmixed, or taken from beside it when too little is
+         * left. */
         const double unmixed = f < 0.7 ? rest / (1 - f) : own[k];
         const bool sane = k < 3 && unmixed <= 2 * own[k] + 0.05;
         back[k] = (float)(sane ? unmixed : own[k]);

@@ -155,8 +155,7 @@ static void emit_row(void *user, size_t index, unsigned worker)
         const float *sum = job->fine->sum[at];
         const float weight = sum[5];
         const float v = sum[4] / weight;
-        const bool behind =
-            weight > WEIGHT_MIN && (double)job->far_v[at] - (double)v > job->gap;
+        const bool behind = weight > WEIGHT_MIN && (double)job->far_v[at] - (double)v > job->gap;
         job->hidden->v[at] = behind ? v : NAN;
         for (int k = 0; k < 4; k++)
             job->hidden->c[at][k] = behind ? sum[k] / weight : 0;
@@ -169,12 +168,11 @@ int32_t wo_sheet_fill_margin(int levels)
 }
 
 wo_status wo_sheet_fill_hidden(const wo_context *context, const wo_sheet *sheets, size_t count,
-                               double px_per_dioptre, int levels, wo_sheet *hidden,
-                               wo_error *error)
+                               double px_per_dioptre, int levels, wo_sheet *hidden, wo_error *error)
 {
     level pyramid[LEVELS_MAX + 1] = {0};
-    fill_job job = {.sheets = sheets, .count = count, .gap = GAP_PX / px_per_dioptre,
-                    .hidden = hidden};
+    fill_job job = {
+        .sheets = sheets, .count = count, .gap = GAP_PX / px_per_dioptre, .hidden = hidden};
     const size_t n = (size_t)wo_rect_width(hidden->area) * (size_t)wo_rect_height(hidden->area);
     wo_status status = WO_ERR_NOMEM;
     levels = levels > LEVELS_MAX ? LEVELS_MAX : levels;

@@ -16,7 +16,7 @@ typedef struct vm {
     m4 a, b;
 } vm;
 
-#define WO_SIMD static inline __attribute__((always_inline))
+#define WO_SIMD           static inline __attribute__((always_inline))
 #define WO_PAIR(type, op) ((type){op(x.a, y.a), op(x.b, y.b)})
 
 WO_SIMD vf v_set(float x)
@@ -36,18 +36,48 @@ WO_SIMD void v_store(float *p, vf x)
     memcpy(p, &x.a, sizeof x.a);
     memcpy(p + 4, &x.b, sizeof x.b);
 }
-WO_SIMD vf v_add(vf x, vf y) { return (vf){x.a + y.a, x.b + y.b}; }
-WO_SIMD vf v_sub(vf x, vf y) { return (vf){x.a - y.a, x.b - y.b}; }
-WO_SIMD vf v_mul(vf x, vf y) { return (vf){x.a * y.a, x.b * y.b}; }
-WO_SIMD vf v_div(vf x, vf y) { return (vf){x.a / y.a, x.b / y.b}; }
+WO_SIMD vf v_add(vf x, vf y)
+{
+    return (vf){x.a + y.a, x.b + y.b};
+}
+WO_SIMD vf v_sub(vf x, vf y)
+{
+    return (vf){x.a - y.a, x.b - y.b};
+}
+WO_SIMD vf v_mul(vf x, vf y)
+{
+    return (vf){x.a * y.a, x.b * y.b};
+}
+WO_SIMD vf v_div(vf x, vf y)
+{
+    return (vf){x.a / y.a, x.b / y.b};
+}
 /* x y + z */
-WO_SIMD vf v_fma(vf x, vf y, vf z) { return (vf){x.a * y.a + z.a, x.b * y.b + z.b}; }
-WO_SIMD vm v_less(vf x, vf y) { return (vm){x.a < y.a, x.b < y.b}; }
-WO_SIMD vm v_less_equal(vf x, vf y) { return (vm){x.a <= y.a, x.b <= y.b}; }
-WO_SIMD vm m_and(vm x, vm y) { return (vm){x.a & y.a, x.b & y.b}; }
-WO_SIMD vm m_or(vm x, vm y) { return (vm){x.a | y.a, x.b | y.b}; }
+WO_SIMD vf v_fma(vf x, vf y, vf z)
+{
+    return (vf){x.a * y.a + z.a, x.b * y.b + z.b};
+}
+WO_SIMD vm v_less(vf x, vf y)
+{
+    return (vm){x.a < y.a, x.b < y.b};
+}
+WO_SIMD vm v_less_equal(vf x, vf y)
+{
+    return (vm){x.a <= y.a, x.b <= y.b};
+}
+WO_SIMD vm m_and(vm x, vm y)
+{
+    return (vm){x.a & y.a, x.b & y.b};
+}
+WO_SIMD vm m_or(vm x, vm y)
+{
+    return (vm){x.a | y.a, x.b | y.b};
+}
 /* x and not y */
-WO_SIMD vm m_except(vm x, vm y) { return (vm){x.a & ~y.a, x.b & ~y.b}; }
+WO_SIMD vm m_except(vm x, vm y)
+{
+    return (vm){x.a & ~y.a, x.b & ~y.b};
+}
 WO_SIMD vm m_set(int32_t x)
 {
     const m4 a = {x, x, x, x};
@@ -63,10 +93,12 @@ WO_SIMD int m_any(vm x)
 /* where m: x, else y */
 WO_SIMD vf v_select(vm m, vf x, vf y)
 {
-    return (vf){(f4)((m.a & (m4)x.a) | (~m.a & (m4)y.a)),
-                (f4)((m.b & (m4)x.b) | (~m.b & (m4)y.b))};
+    return (vf){(f4)((m.a & (m4)x.a) | (~m.a & (m4)y.a)), (f4)((m.b & (m4)x.b) | (~m.b & (m4)y.b))};
 }
-WO_SIMD vf v_mask(vm m, vf x) { return (vf){(f4)(m.a & (m4)x.a), (f4)(m.b & (m4)x.b)}; }
+WO_SIMD vf v_mask(vm m, vf x)
+{
+    return (vf){(f4)(m.a & (m4)x.a), (f4)(m.b & (m4)x.b)};
+}
 WO_SIMD vf v_abs(vf x)
 {
     const m4 k = {INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX};

@@ -120,8 +120,8 @@ wo_status wo_stack_create(const wo_context *context, const wo_sheet *sheets, siz
         const size_t cells = (size_t)stack->cell_columns * (size_t)stack->cell_rows;
         stack->cell_memory = wo_new(context, error, cells * (size_t)stack->sheets,
                                     2 * sizeof **stack->cells + sizeof **stack->gaps);
-        stack->memory =
-            wo_new_large(context, error, plane, ((size_t)stack->sheets * 5 + 1) * sizeof *stack->memory);
+        stack->memory = wo_new_large(context, error, plane,
+                                     ((size_t)stack->sheets * 5 + 1) * sizeof *stack->memory);
         if (!stack->memory || !stack->cell_memory) {
             wo_stack_destroy(context, stack);
             return WO_ERR_NOMEM;

@@ -29,7 +29,7 @@ typedef struct wo_bounds {
 } wo_bounds;
 
 typedef struct wo_stack {
-    wo_rect area; /* x1 is a multiple of WO_BLOCK, y1 of WO_CELL */
+    wo_rect area;  /* x1 is a multiple of WO_BLOCK, y1 of WO_CELL */
     ptrdiff_t run; /* floats of one run of a row */
     ptrdiff_t row; /* floats of one row: WO_PHASES * run */
     int sheets;
@@ -40,7 +40,8 @@ typedef struct wo_stack {
     float *memory;
     int32_t cell_columns, cell_rows;
     wo_bounds *cells[WO_SHEETS_MAX]; /* [rows][columns] */
-    wo_bounds *spans[WO_SHEETS_MAX]; /* [rows][columns] over the WO_SPAN_X x WO_SPAN_Y cells from here on */
+    wo_bounds *spans[WO_SHEETS_MAX]; /* [rows][columns] over the WO_SPAN_X x WO_SPAN_Y cells from
+                                        here on */
     bool *gaps[WO_SHEETS_MAX];       /* [rows][columns] true = the sheet is empty somewhere */
     void *cell_memory;
 } wo_stack;
@@ -52,9 +53,9 @@ static inline ptrdiff_t wo_stack_at(const wo_stack *stack, int32_t x, int32_t y)
     return (y - stack->area.y1) * stack->row + (i & (WO_PHASES - 1)) * stack->run + i / WO_PHASES;
 }
 
-/* Packs the sheets that hold anything; area is grown to the grid. sheets, all of one area, must cover
-   the part of area inside extent; pixels outside repeat the nearest inside. opaque: a byte for each
-   pixel of the sheets' area. */
+/* Packs the sheets that hold anything; area is grown to the grid. sheets, all of one area, must
+   cover the part of area inside extent; pixels outside repeat the nearest inside. opaque: a byte
+   for each pixel of the sheets' area. */
 WO_NODISCARD wo_status wo_stack_create(const wo_context *context, const wo_sheet *sheets,
                                        size_t count, const uint8_t *opaque, wo_rect area,
                                        wo_rect extent, wo_stack *stack, wo_error *error);
@@ -63,8 +64,8 @@ void wo_stack_destroy(const wo_context *context, wo_stack *stack);
 /* Area that wo_stack_create makes of this one. */
 wo_rect wo_stack_grid(wo_rect area);
 
-/* Bounds of a sheet over the cells that touch r, which must lie inside the area; *gaps becomes true when
-   the sheet is empty at some pixel of them. */
+/* Bounds of a sheet over the cells that touch r, which must lie inside the area; *gaps becomes true
+   when the sheet is empty at some pixel of them. */
 wo_bounds wo_stack_bounds(const wo_stack *stack, int sheet, wo_rect r, bool *gaps);
 
 #endif

@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-/* Hidden surfaces are continued so many times as far as the largest radius, rounded up to a power of
-   two; beyond 2^FILL_LEVELS_MAX px they are unknown. */
+/* Hidden surfaces are continued so many times as far as the largest radius, rounded up to a power
+   of two; beyond 2^FILL_LEVELS_MAX px they are unknown. */
 enum { FILL_LEVELS_MAX = 9 };
 
 /* px that loading, splitting and seeding look beyond a pixel, one after the other. */
@@ -30,8 +30,8 @@ wo_status wo_lens_blur_prepare(const wo_lens_blur_params *params, const wo_geome
     for (int i = 0; i < WO_LENS_BLUR_LAYERS; i++) {
         setup->layer_used[i] = i < params->layers && (i == 0 || geometry->connected[2 * i]);
         setup->layers += setup->layer_used[i];
-        setup->has_depth |= setup->layer_used[i] && params->use_depth &&
-                            geometry->connected[2 * i + 1];
+        setup->has_depth |=
+            setup->layer_used[i] && params->use_depth && geometry->connected[2 * i + 1];
     }
     setup->mask_used = params->use_mask && geometry->connected[WO_CLIP_MASK];
 
@@ -40,9 +40,9 @@ wo_status wo_lens_blur_prepare(const wo_lens_blur_params *params, const wo_geome
     if (!setup->has_depth)
         radius = fmin(radius, at_infinity);
     else if (params->depth_mode == WO_DEPTH_NORMALISED)
-        radius = fmin(radius, fmax(at_infinity,
-                                   fmax(wo_thin_lens_coc(&setup->lens, 1 / params->depth_near),
-                                        wo_thin_lens_coc(&setup->lens, 1 / params->depth_far))));
+        radius = fmin(
+            radius, fmax(at_infinity, fmax(wo_thin_lens_coc(&setup->lens, 1 / params->depth_near),
+                                           wo_thin_lens_coc(&setup->lens, 1 / params->depth_far))));
     setup->radius = radius;
     setup->v_max = radius / setup->lens.k;
     setup->v_min = -setup->v_max;
@@ -81,8 +81,8 @@ wo_lens_blur_areas wo_lens_blur_plan_areas(const wo_lens_blur_setup *setup,
     const wo_rect tiles = on_grid(window, WO_TILE_WIDTH, WO_TILE_HEIGHT);
     areas.stack = wo_stack_grid(wo_rect_grow(tiles, margin, margin));
     /* Highlights are told from areas of light by whole tiles and those around them. */
-    areas.layers = wo_rect_grow(on_grid(areas.stack, WO_TILE_WIDTH, WO_TILE_HEIGHT),
-                                WO_TILE_WIDTH, WO_TILE_HEIGHT);
+    areas.layers = wo_rect_grow(on_grid(areas.stack, WO_TILE_WIDTH, WO_TILE_HEIGHT), WO_TILE_WIDTH,
+                                WO_TILE_HEIGHT);
     if (setup->fill_levels > 0) {
         const int32_t fill = wo_sheet_fill_margin(setup->fill_levels);
         const int32_t grid = (int32_t)1 << setup->fill_levels;

@@ -59,10 +59,10 @@ typedef struct wo_lens_blur_setup {
     wo_aperture aperture;
     wo_depth_reading reading;
     bool has_depth;
-    int layers;      /* that take part */
+    int layers; /* that take part */
     bool layer_used[WO_LENS_BLUR_LAYERS];
     bool mask_used;
-    double radius;   /* largest circle of confusion that is drawn, px */
+    double radius; /* largest circle of confusion that is drawn, px */
     double v_min, v_max;
     int fill_levels; /* of the continuation of hidden surfaces; 0 = no depth, nothing to continue */
 } wo_lens_blur_setup;

@@ -140,9 +140,8 @@ static wo_status build_scene(wo_plan *plan, const wo_plan_args *args, wo_error *
                                           plan->setup.fill_levels, &sheets[HIDDEN], error);
     }
     if (status == WO_OK)
-        status = wo_highlights_take(context, sheets, SHEETS,
-                                    wo_rect_intersect(areas.stack, extent), &plan->lens,
-                                    &plan->highlights, error);
+        status = wo_highlights_take(context, sheets, SHEETS, wo_rect_intersect(areas.stack, extent),
+                                    &plan->lens, &plan->highlights, error);
     plan->report.seconds[WO_STAGE_INPUT] += wo_seconds() - start;
     start = wo_seconds();
     if (status == WO_OK)
@@ -218,10 +217,9 @@ wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params
     if ((status = build_scene(plan, args, error)) != WO_OK)
         goto done;
     const double start = wo_seconds();
-    status = wo_lens_rays_create(&plan->context, &plan->stack, &plan->lens, &plan->highlights,
-                                 plan->window,
-                                 plan->setup.radius * fmax(1, plan->geometry.pixel_stretch),
-                                 &plan->rays, error);
+    status = wo_lens_rays_create(
+        &plan->context, &plan->stack, &plan->lens, &plan->highlights, plan->window,
+        plan->setup.radius * fmax(1, plan->geometry.pixel_stretch), &plan->rays, error);
     plan->report.seconds[WO_STAGE_PLAN] = wo_seconds() - start;
 done:
     if (status != WO_OK)
@@ -281,8 +279,9 @@ int wo_lens_blur_plan_print(const wo_plan *plan, char *buffer, size_t size)
     add(&p, "lens        %g mm f/%g, focus at %g m; blur radius %.4g px per dioptre\n",
         plan->params.focal_length, plan->params.f_stop, plan->params.focus_distance, s->lens.k);
     add(&p, "blur        largest radius %.2f px (limit %.2f px)\n", reach, s->radius);
-    add(&p, "layers      %d connected, %s; %d sheets after splitting edges and continuing hidden "
-            "surfaces\n",
+    add(&p,
+        "layers      %d connected, %s; %d sheets after splitting edges and continuing hidden "
+        "surfaces\n",
         s->layers, s->has_depth ? "with depth" : "no depth: all at infinity", plan->stack.sheets);
     add(&p, "highlights  %zu connected directly\n", plan->highlights.count);
     add(&p, "samples     %d lens rays for each pixel, %u different pencils\n", plan->params.samples,

@@ -65,8 +65,7 @@ static float nearest_surface(const wo_stack *stack, int32_t x, int32_t y)
     const ptrdiff_t at = wo_stack_at(stack, x, y);
     float v = NAN;
     for (int s = 0; s < stack->sheets; s++)
-        if (!stack->guessed[s] && stack->v[s][at] == stack->v[s][at] &&
-            !(stack->v[s][at] <= v))
+        if (!stack->guessed[s] && stack->v[s][at] == stack->v[s][at] && !(stack->v[s][at] <= v))
             v = stack->v[s][at];
     return v;
 }
@@ -164,12 +163,13 @@ static void fill_report(const render_job *job, double seconds, wo_report *report
     part.steps = atomic_load(&job->steps);
     for (int i = 0; i < WO_TILE_CLASS_COUNT; i++)
         part.tiles[i] = atomic_load(&job->tile[i]);
-    part.guessed = pixels > 0 ? (double)atomic_load(&job->guessed) / GUESS_UNIT / (double)pixels : 0;
+    part.guessed =
+        pixels > 0 ? (double)atomic_load(&job->guessed) / GUESS_UNIT / (double)pixels : 0;
     part.guessed_pixels = atomic_load(&job->guessed_pixels);
     for (int32_t ty = job->tiles.y1; ty < job->tiles.y2; ty++)
         for (int32_t tx = job->tiles.x1; tx < job->tiles.x2; tx++)
-            part.largest_radius = fmax(part.largest_radius,
-                                       (double)wo_lens_rays_at(&plan->rays, tx, ty)->reach);
+            part.largest_radius =
+                fmax(part.largest_radius, (double)wo_lens_rays_at(&plan->rays, tx, ty)->reach);
     const double tile_rays = (double)plan->params.samples * WO_TILE_WIDTH * WO_TILE_HEIGHT;
     if (part.tiles[WO_TILE_EMPTY] > 0)
         wo_report_leave_out(&part, "rays of empty tiles", "nothing is there",
@@ -203,8 +203,8 @@ wo_status wo_lens_blur_render(const wo_plan *plan, wo_rect window, const wo_imag
     if (wo_rect_empty(inside))
         return WO_OK;
     const double start = wo_seconds();
-    render_job job = {.plan = plan, .window = inside, .tiles = wo_tiles_of(inside),
-                      .output = output};
+    render_job job = {
+        .plan = plan, .window = inside, .tiles = wo_tiles_of(inside), .output = output};
     wo_run(&plan->context, render_tile, &job,
            (size_t)wo_rect_width(job.tiles) * (size_t)wo_rect_height(job.tiles));
     if (atomic_load(&job.stop))

@@ -14,8 +14,7 @@ static double at_distance(double metres, bool *valid)
     return fmin(1 / metres, WO_VERGENCE_MAX);
 }
 
-double wo_depth_vergence(const wo_depth_reading *reading, double sample, double cosine,
-                         bool *valid)
+double wo_depth_vergence(const wo_depth_reading *reading, double sample, double cosine, bool *valid)
 {
     switch (reading->mode) {
     case WO_DEPTH_INVERSE:

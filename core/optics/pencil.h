@@ -19,7 +19,8 @@ typedef struct wo_pencil {
 /* A lens as a renderer sees it. Const after it is made, shared by all threads. */
 typedef struct wo_lens {
     const void *self;
-    unsigned sets; /* number of different pencils for one sensor point; neighbours use different ones */
+    unsigned
+        sets; /* number of different pencils for one sensor point; neighbours use different ones */
     /* Pencil number set (0..sets-1) at the sensor point (x, y), px. */
     void (*pencil)(const void *self, double x, double y, unsigned set, wo_pencil *out);
     /* Largest distance |p(v) - x| of any ray over v_far <= v <= v_near, px. */
@@ -43,8 +44,8 @@ typedef struct wo_thin_pencils {
 
 /* count >= 1 samples of the aperture in each set. seed changes the samples, not the picture. */
 WO_NODISCARD wo_status wo_thin_pencils_create(const wo_context *context, const wo_thin_lens *lens,
-                                              const wo_aperture *aperture, double stretch, int count,
-                                              uint32_t seed, wo_thin_pencils **pencils,
+                                              const wo_aperture *aperture, double stretch,
+                                              int count, uint32_t seed, wo_thin_pencils **pencils,
                                               wo_error *error);
 void wo_thin_pencils_destroy(const wo_context *context, wo_thin_pencils **pencils);
 wo_lens wo_thin_pencils_lens(const wo_thin_pencils *pencils);

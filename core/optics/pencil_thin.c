@@ -65,8 +65,8 @@ wo_status wo_thin_pencils_create(const wo_context *context, const wo_thin_lens *
         wo_thin_pencils_destroy(context, &p);
         return WO_ERR_NOMEM;
     }
-    /* The two-dimensional additive recurrence of the plastic number (Roberts 2018), one random shift
-       for each set (Cranley and Patterson 1976). */
+    /* The two-dimensional additive recurrence of the plastic number (Roberts 2018), one random
+       shift for each set (Cranley and Patterson 1976). */
     const double g = 1.32471795724474602596;
     for (unsigned set = 0; set < p->sets; set++) {
         const double shift_s = wo_hash(2 * set + 1 + 0x9e3779b9u * seed) * 0x1p-32;

@@ -21,8 +21,7 @@ wo_status wo_thin_lens_make(double focal_mm, double sensor_mm, double f_stop, do
         return wo_fail(error, WO_ERR_RANGE, "picture width %g px: must be above 0", width_px);
     const double focal_m = focal_mm * 1e-3;
     /* As for depths, nothing is nearer than WO_VERGENCE_MAX can say. */
-    const double vf =
-        focus_m != 0 ? fmin(fmax(1 / focus_m, -WO_VERGENCE_MAX), WO_VERGENCE_MAX) : 0;
+    const double vf = focus_m != 0 ? fmin(fmax(1 / focus_m, -WO_VERGENCE_MAX), WO_VERGENCE_MAX) : 0;
     double image_m = focal_m;
     if (breathing) {
         if (!(vf * focal_m < 1))

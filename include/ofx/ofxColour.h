@@ -40,7 +40,7 @@ extern "C" {
 #define kOfxImageEffectColourManagementOCIO  "OfxImageEffectColourManagementOCIO"
 
 /* string xN on host and effect descriptor: native configs it knows. */
-#define kOfxImageEffectPropColourManagementAvailableConfigs \
+#define kOfxImageEffectPropColourManagementAvailableConfigs                                        \
     "OfxImageEffectPropColourManagementAvailableConfigs"
 
 /* string on the instance: the native config in use. */

@@ -35,10 +35,10 @@ extern "C" {
 typedef int OfxStatus;
 
 #define kOfxStatOK                    0
-#define kOfxStatFailed                1  /* this call failed, the object lives on */
-#define kOfxStatErrFatal              2  /* the object, or the plugin, is beyond use */
-#define kOfxStatErrUnknown            3  /* no such property, parameter, clip */
-#define kOfxStatErrMissingHostFeature 4  /* the plugin needs what this host lacks */
+#define kOfxStatFailed                1 /* this call failed, the object lives on */
+#define kOfxStatErrFatal              2 /* the object, or the plugin, is beyond use */
+#define kOfxStatErrUnknown            3 /* no such property, parameter, clip */
+#define kOfxStatErrMissingHostFeature 4 /* the plugin needs what this host lacks */
 #define kOfxStatErrUnsupported        5
 #define kOfxStatErrExists             6
 #define kOfxStatErrFormat             7
@@ -108,9 +108,9 @@ typedef OfxStatus(OfxPluginEntryPoint)(const char *action, const void *handle,
 
 /* One plugin of a binary. Static data of the plugin, only read by the host. */
 typedef struct OfxPlugin {
-    const char *pluginApi;          /* kOfxImageEffectPluginApi */
-    int apiVersion;                 /* kOfxImageEffectPluginApiVersion */
-    const char *pluginIdentifier;   /* reverse domain name, ASCII, no blanks */
+    const char *pluginApi;        /* kOfxImageEffectPluginApi */
+    int apiVersion;               /* kOfxImageEffectPluginApiVersion */
+    const char *pluginIdentifier; /* reverse domain name, ASCII, no blanks */
     unsigned int pluginVersionMajor;
     unsigned int pluginVersionMinor;
     void (*setHost)(OfxHost *host); /* called before any action; only keeps the pointer */

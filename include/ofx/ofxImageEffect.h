@@ -133,7 +133,7 @@ typedef struct OfxImageMemoryStruct *OfxImageMemoryHandle;
 #define kOfxImageEffectInstancePropSequentialRender "OfxImageEffectInstancePropSequentialRender"
 
 /* int 0/1: render is called for each field even where both see the same input. */
-#define kOfxImageEffectPluginPropFieldRenderTwiceAlways \
+#define kOfxImageEffectPluginPropFieldRenderTwiceAlways                                            \
     "OfxImageEffectPluginPropFieldRenderTwiceAlways"
 
 /* ---- Effect and host: abilities -------------------------------------------------------------- */
@@ -362,8 +362,7 @@ typedef struct OfxImageEffectSuiteV1 {
     OfxStatus (*clipReleaseImage)(OfxPropertySetHandle imageHandle);
 
     /* `bounds` is canonical and may be infinite, see kOfxFlagInfiniteMax. */
-    OfxStatus (*clipGetRegionOfDefinition)(OfxImageClipHandle clip, OfxTime time,
-                                           OfxRectD *bounds);
+    OfxStatus (*clipGetRegionOfDefinition)(OfxImageClipHandle clip, OfxTime time, OfxRectD *bounds);
 
     /* An answer, not a status: 1 if the render should stop, else 0. */
     int (*abort)(OfxImageEffectHandle imageEffect);

@@ -18,8 +18,11 @@ typedef struct wo_aperture {
     double aspect;    /* width / height, 0.1..10; the longer side keeps the unit radius */
 } wo_aperture;
 
-#define WO_APERTURE_INIT {.aspect = 1}
-#define WO_BLADES_MAX    16
+#define WO_APERTURE_INIT                                                                           \
+    {                                                                                              \
+        .aspect = 1                                                                                \
+    }
+#define WO_BLADES_MAX 16
 
 /* Checks the ranges. */
 WO_NODISCARD wo_status wo_aperture_validate(const wo_aperture *aperture, wo_error *error);

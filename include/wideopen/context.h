@@ -37,15 +37,18 @@ typedef struct wo_context {
     wo_allocator allocator;
     wo_runner runner;
     int cpu;
-    size_t max_bytes;               /* largest single allocation; 0 = no limit */
+    size_t max_bytes; /* largest single allocation; 0 = no limit */
     void *abort_user;
-    bool (*aborted)(void *user);    /* polled every few milliseconds from any worker; NULL = never */
+    bool (*aborted)(void *user); /* polled every few milliseconds from any worker; NULL = never */
     void *progress_user;
     void (*progress)(void *user, double fraction); /* 0..1, any worker, rising; NULL = none */
 } wo_context;
 
 /* One thread, malloc, best kernels of this machine. */
-#define WO_CONTEXT_INIT {.cpu = WO_CPU_AUTO}
+#define WO_CONTEXT_INIT                                                                            \
+    {                                                                                              \
+        .cpu = WO_CPU_AUTO                                                                         \
+    }
 
 /* Instruction sets of this machine, limited by mask. Any thread. */
 int wo_cpu_detect(int mask);
@@ -53,7 +56,7 @@ int wo_cpu_detect(int mask);
 /* In the functions below a NULL context means one of zeros. */
 
 /* Zeroed array of count elements of size bytes from the context's allocator. NULL and a text in
-   *error on failure; count or size 0 and overflow are failures. Any thread. */
+ *error on failure; count or size 0 and overflow are failures. Any thread. */
 void *wo_new(const wo_context *context, wo_error *error, size_t count, size_t size) WO_NODISCARD;
 
 /* The same for large arrays: all workers clear it. Not from inside a wo_run. */

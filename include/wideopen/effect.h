@@ -52,18 +52,25 @@ typedef struct wo_geometry {
     bool connected[WO_CLIPS_MAX];
 } wo_geometry;
 
-#define WO_GEOMETRY_INIT {.render_scale = 1, .pixel_stretch = 1}
+#define WO_GEOMETRY_INIT                                                                           \
+    {                                                                                              \
+        .render_scale = 1, .pixel_stretch = 1                                                      \
+    }
 
 /* State of Source's alpha; outputs are always premultiplied. */
-typedef enum wo_alpha { WO_ALPHA_PREMULTIPLIED, WO_ALPHA_UNPREMULTIPLIED, WO_ALPHA_OPAQUE } wo_alpha;
+typedef enum wo_alpha {
+    WO_ALPHA_PREMULTIPLIED,
+    WO_ALPHA_UNPREMULTIPLIED,
+    WO_ALPHA_OPAQUE
+} wo_alpha;
 
 /* Pixels for a plan. The views are borrowed until the plan is destroyed. A clip without pixels
    has inputs[i].data == NULL. Bounds must hold what region() asked for, cut to the extent of
-   Source; beyond the bounds an input repeats its edge pixel. (The OFX glue gives colour and mask clips
-   that are smaller than Source a border of zeros; depth repeats its edge.) */
+   Source; beyond the bounds an input repeats its edge pixel. (The OFX glue gives colour and mask
+   clips that are smaller than Source a border of zeros; depth repeats its edge.) */
 typedef struct wo_plan_args {
     wo_geometry geometry;
-    wo_rect window; /* what will be rendered */
+    wo_rect window;         /* what will be rendered */
     const wo_image *inputs; /* [clip_count] in the order of wo_effect.clips */
     wo_alpha alpha[WO_CLIPS_MAX];
 } wo_plan_args;
@@ -98,8 +105,9 @@ typedef struct wo_effect {
     int (*plan_print)(const wo_plan *plan, char *buffer, size_t size);
 
     /* Writes window of output (RGBA, premultiplied); window must lie inside the planned one and
-       output->bounds; its part beyond geometry.extent becomes 0. report may be NULL; else it is added to. Allocates nothing. Any thread, also
-       several windows of one plan at once. Returns WO_ABORTED when the caller wanted to stop. */
+       output->bounds; its part beyond geometry.extent becomes 0. report may be NULL; else it is
+       added to. Allocates nothing. Any thread, also several windows of one plan at once. Returns
+       WO_ABORTED when the caller wanted to stop. */
     wo_status (*render)(const wo_plan *plan, wo_rect window, const wo_image *output,
                         wo_report *report, wo_error *error);
 

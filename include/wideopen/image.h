@@ -46,8 +46,8 @@ static inline float *wo_image_at(const wo_image *image, int32_t x, int32_t y)
            (ptrdiff_t)(x - image->bounds.x1) * image->components;
 }
 
-/* Checks a view: components 1, 3 or 4, sane bounds, rows that do not overlap. An unconnected view is
-   valid. name goes into the text. Any thread. */
+/* Checks a view: components 1, 3 or 4, sane bounds, rows that do not overlap. An unconnected view
+   is valid. name goes into the text. Any thread. */
 WO_NODISCARD wo_status wo_image_validate(const wo_image *image, const char *name, wo_error *error);
 
 #ifdef __cplusplus

@@ -3,8 +3,8 @@
 #ifndef WIDEOPEN_OFX_REPORT_H
 #define WIDEOPEN_OFX_REPORT_H
 
-/* A suite of our own, by which a host may ask our plugins what a render did. OpenFX lets hosts offer
-   suites of their own; a host without this one answers NULL and nothing is reported.
+/* A suite of our own, by which a host may ask our plugins what a render did. OpenFX lets hosts
+   offer suites of their own; a host without this one answers NULL and nothing is reported.
    fetchSuite(host, kWideOpenReportSuite, 1). */
 #define kWideOpenReportSuite "org.wideopen.ReportSuite"
 

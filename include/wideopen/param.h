@@ -15,12 +15,12 @@ extern "C" {
 /*             type               C type of the field            values */
 typedef enum wo_param_type {
     WO_PARAM_DOUBLE, /*           double                         1 */
-    WO_PARAM_INT, /*              int32_t                        1 */
-    WO_PARAM_BOOL, /*             int32_t, 0 or 1                1 */
+    WO_PARAM_INT,    /*              int32_t                        1 */
+    WO_PARAM_BOOL,   /*             int32_t, 0 or 1                1 */
     WO_PARAM_CHOICE, /*           int32_t, index into choices    1 */
-    WO_PARAM_POINT, /*            double[2]                      2 */
+    WO_PARAM_POINT,  /*            double[2]                      2 */
     WO_PARAM_COLOUR, /*           double[3], scene-linear RGB    3 */
-    WO_PARAM_STRING /*            char[WO_PARAM_STRING_SIZE]     text */
+    WO_PARAM_STRING  /*            char[WO_PARAM_STRING_SIZE]     text */
 } wo_param_type;
 
 #define WO_PARAM_STRING_SIZE 1024
@@ -32,14 +32,14 @@ typedef struct wo_param {
     const char *unit;  /* "mm", "m", "px", "deg", "" ... */
     const char *group; /* key of the row's group in wo_effect.groups */
     wo_param_type type;
-    size_t offset;             /* of the field in the params struct */
-    double initial[3];         /* default value(s); a string's default is initial_text */
-    double min, max;           /* hard range, applied to each value */
-    double ui_min, ui_max;     /* range of a slider */
-    const char *const *choices; /* WO_PARAM_CHOICE: keys, ends with NULL */
+    size_t offset;                    /* of the field in the params struct */
+    double initial[3];                /* default value(s); a string's default is initial_text */
+    double min, max;                  /* hard range, applied to each value */
+    double ui_min, ui_max;            /* range of a slider */
+    const char *const *choices;       /* WO_PARAM_CHOICE: keys, ends with NULL */
     const char *const *choice_labels; /* labels of the choices, same order; NULL = the keys */
-    const char *initial_text;  /* WO_PARAM_STRING */
-    bool animates;             /* may change over time */
+    const char *initial_text;         /* WO_PARAM_STRING */
+    bool animates;                    /* may change over time */
 } wo_param;
 
 /* Number of numeric values of a row: 1, 2 or 3; 0 for a string. */

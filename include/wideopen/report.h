@@ -10,11 +10,11 @@ extern "C" {
 #endif
 
 #define WO_STAGE_LIST(X)                                                                           \
-    X(WO_STAGE_INPUT, "input")     /* sanitising, vergence, coverage, premultiplication */         \
-    X(WO_STAGE_BOUNDS, "bounds")   /* min/max vergence */                                          \
-    X(WO_STAGE_PLAN, "plan")       /* classes of tiles */                                          \
-    X(WO_STAGE_RENDER, "render")   /* lens rays */                                                 \
-    X(WO_STAGE_OUTPUT, "output")   /* mask, writing */
+    X(WO_STAGE_INPUT, "input")   /* sanitising, vergence, coverage, premultiplication */           \
+    X(WO_STAGE_BOUNDS, "bounds") /* min/max vergence */                                            \
+    X(WO_STAGE_PLAN, "plan")     /* classes of tiles */                                            \
+    X(WO_STAGE_RENDER, "render") /* lens rays */                                                   \
+    X(WO_STAGE_OUTPUT, "output") /* mask, writing */
 
 typedef enum wo_stage {
 #define WO_STAGE_ENUM(name, text) name,
@@ -53,13 +53,13 @@ typedef struct wo_report {
     int64_t rays;                   /* lens rays: pixels times samples where rays were traced */
     int64_t steps;                  /* layer lookups of all rays, each for one pixel */
     int64_t tiles[WO_TILE_CLASS_COUNT];
-    double guessed;                 /* fraction of all light that came from invented surfaces, 0..1 */
-    int64_t guessed_pixels;         /* pixels with more than 1/255 of such light */
-    int64_t sanitised_colour;       /* samples that were NaN or Inf and became 0 */
-    int64_t sanitised_depth;        /* samples that were NaN, Inf, zero or negative: infinitely far */
-    int64_t edge_depth;             /* covered pixels without depth that took a neighbour's */
-    int64_t clamped_radius;         /* pixels whose circle of confusion was cut to maxRadius */
-    double largest_radius;          /* largest circle of confusion drawn, px, radius */
+    double guessed;           /* fraction of all light that came from invented surfaces, 0..1 */
+    int64_t guessed_pixels;   /* pixels with more than 1/255 of such light */
+    int64_t sanitised_colour; /* samples that were NaN or Inf and became 0 */
+    int64_t sanitised_depth;  /* samples that were NaN, Inf, zero or negative: infinitely far */
+    int64_t edge_depth;       /* covered pixels without depth that took a neighbour's */
+    int64_t clamped_radius;   /* pixels whose circle of confusion was cut to maxRadius */
+    double largest_radius;    /* largest circle of confusion drawn, px, radius */
     int left_out_count;
     wo_left_out left_out[WO_LEFT_OUT_MAX];
 } wo_report;
@@ -74,8 +74,8 @@ void wo_report_leave_out(wo_report *report, const char *what, const char *why, d
 /* Adds the counters of part to total (several windows of one picture). */
 void wo_report_add(wo_report *total, const wo_report *part);
 
-/* One JSON object, always complete and valid; what is not finite becomes null, and when it does not fit
-   the buffer holds {} only. Returns the length as snprintf does. */
+/* One JSON object, always complete and valid; what is not finite becomes null, and when it does not
+   fit the buffer holds {} only. Returns the length as snprintf does. */
 int wo_report_json(const wo_report *report, char *buffer, size_t size);
 
 #ifdef __cplusplus

@@ -9,8 +9,8 @@
 extern "C" {
 #endif
 
-/* Straight rays against quadrangles, triangles, spheres and rods, by Embree. Geometries are added by
-   one thread and numbered 0, 1, 2 ... in the order of adding; after wo_raycast_commit the set is
+/* Straight rays against quadrangles, triangles, spheres and rods, by Embree. Geometries are added
+   by one thread and numbered 0, 1, 2 ... in the order of adding; after wo_raycast_commit the set is
    constant and any number of threads may trace. On one machine the same geometry and the same
    array of rays give the same hits, bit for bit, whatever the number of threads. */
 typedef struct wo_raycast wo_raycast;
@@ -30,11 +30,9 @@ enum { WO_RAYCAST_OPEN = 0, WO_RAYCAST_CLOSED = 1 };
    radius of its own; hit.u runs along; those of a chain share points. */
 WO_NODISCARD wo_status wo_raycast_add_quads(wo_raycast *cast, int kind, const float (*vertices)[3],
                                             size_t vertex_count, const uint32_t (*faces)[4],
-                                            size_t face_count, uint32_t *geometry,
-                                            wo_error *error);
-WO_NODISCARD wo_status wo_raycast_add_spheres(wo_raycast *cast, int kind,
-                                              const float (*spheres)[4], size_t count,
-                                              uint32_t *geometry, wo_error *error);
+                                            size_t face_count, uint32_t *geometry, wo_error *error);
+WO_NODISCARD wo_status wo_raycast_add_spheres(wo_raycast *cast, int kind, const float (*spheres)[4],
+                                              size_t count, uint32_t *geometry, wo_error *error);
 WO_NODISCARD wo_status wo_raycast_add_rods(wo_raycast *cast, int kind, const float (*points)[4],
                                            size_t point_count, const uint32_t *first, size_t count,
                                            uint32_t *geometry, wo_error *error);

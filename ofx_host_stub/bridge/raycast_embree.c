@@ -120,8 +120,10 @@ static wo_status check_indices(const uint32_t *indices, size_t count, size_t lim
 {
     for (size_t i = 0; i < count; i++)
         if (indices[i] >= limit)
-            return wo_fail(error, WO_ERR_RANGE, "vertex %u is asked for, the last one usable is "
-                           "number %zu", indices[i], limit);
+            return wo_fail(error, WO_ERR_RANGE,
+                           "vertex %u is asked for, the last one usable is "
+                           "number %zu",
+                           indices[i], limit);
     return WO_OK;
 }
 

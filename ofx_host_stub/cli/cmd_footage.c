@@ -19,6 +19,9 @@ static const wo_option options[] = {
     {"--layers", NULL, "N", "Depth layers to make, 0..8; default 4.", false},
     {"--hits", NULL, NULL,
      "Make layer k of the k-th hits alone, as renderers do: edge pixels mix near and far.", false},
+    {"--back-faces", NULL, NULL,
+     "Peel the faces of solids that look away from the camera, too; a wide lens may see some.",
+     false},
     {"--reference", NULL, "SPP",
      "Lens rays for each pixel of the reference, 16..1048576; default 0: no reference.", false},
     {"--samples", NULL, "N", "Rays for each pixel of pinhole and layers, 1..256; default 32.",
@@ -41,7 +44,10 @@ static const wo_usage usage = {
     .synopsis = "SCENE -o DIR [--size WxH] [--layers N] [--reference SPP]",
     .about = "Makes test footage: a procedural scene through a pinhole with depth and normals, its "
              "depth layers, and the truth: the same scene through a thin lens by brute force, with "
-             "its standard error. `wideopen footage` alone lists the scenes.",
+             "its standard error. `wideopen footage` alone lists the scenes.\n"
+             "Files: " WO_FOOTAGE_PINHOLE " (rgba, depth, normal), " WO_FOOTAGE_LAYERS
+             " (layer1, layer1_depth, ...), " WO_FOOTAGE_REFERENCE ", " WO_FOOTAGE_REFERENCE_ERROR
+             " and scene.json, which says what they are.",
     .positionals = "SCENE",
     .positionals_min = 0,
     .positionals_max = 1,
@@ -83,6 +89,7 @@ static bool read_options(const wo_args *args, wo_footage_options *o, unsigned *t
     *o = (wo_footage_options){.scene = args->positionals[0],
                               .peel = wo_args_count(args, "--hits") ? WO_FOOTAGE_HITS
                                                                     : WO_FOOTAGE_PATCHES,
+                              .back_faces = wo_args_count(args, "--back-faces") > 0,
                               .umbra = wo_args_count(args, "--umbra") > 0};
     const char *size = wo_args_value(args, "--size", 0);
     if (size && !wo_read_size(size, &o->width, &o->height)) {
@@ -123,32 +130,105 @@ static void move_bar(void *user, double fraction)
     wo_bar_move(user, fraction);
 }
 
-static int report(const wo_args *args, const wo_footage *set, const char *folder)
+static void print_file(wo_json *out, const char *name, const char *const *parts, int count)
 {
-    if (!wo_args_count(args, "--json")) {
-        wo_message("%s: %dx%d, %d layers in %s", set->scene->name, wo_rect_width(set->colour.bounds),
-                   wo_rect_height(set->colour.bounds), set->layer_count, folder);
-        if (set->options.umbra)
-            wo_message("%" PRId64 " patches that no lens ray can reach were left out",
-                       set->umbra_dropped);
-        if (set->reference.data)
-            wo_message("reference of %d rays a pixel, its own noise at %.1f dB",
-                       set->options.reference_spp, set->noise_psnr);
-        return WO_EXIT_OK;
+    wo_json_object(out, NULL);
+    wo_json_text(out, "name", name);
+    wo_json_array(out, "parts");
+    for (int i = 0; i < count; i++)
+        wo_json_text(out, NULL, parts[i]);
+    wo_json_close(out);
+    wo_json_close(out);
+}
+
+static void print_files(wo_json *out, const wo_footage *set)
+{
+    static const char *const pinhole[] = {"rgba", "depth", "normal"};
+    char names[2 * WO_FOOTAGE_LAYERS_MAX][24];
+    const char *parts[2 * WO_FOOTAGE_LAYERS_MAX];
+    for (int k = 0; k < 2 * set->layer_count; k++) {
+        snprintf(names[k], sizeof names[k], k % 2 ? "layer%d_depth" : "layer%d", k / 2 + 1);
+        parts[k] = names[k];
     }
+    wo_json_array(out, "files");
+    print_file(out, WO_FOOTAGE_PINHOLE, pinhole, WO_COUNT(pinhole));
+    if (set->layer_count > 0)
+        print_file(out, WO_FOOTAGE_LAYERS, parts, 2 * set->layer_count);
+    if (set->reference.data) {
+        print_file(out, WO_FOOTAGE_REFERENCE, NULL, 0);
+        print_file(out, WO_FOOTAGE_REFERENCE_ERROR, NULL, 0);
+    }
+    wo_json_close(out);
+}
+
+/* Everything that is known of a set. */
+static void print_set(FILE *file, const wo_footage *set, const char *folder)
+{
+    const wo_footage_options *const o = &set->options;
     wo_json out;
-    wo_json_begin(&out, stdout);
+    wo_json_begin(&out, file);
     wo_json_object(&out, NULL);
     wo_json_text(&out, "scene", set->scene->name);
-    wo_json_text(&out, "folder", folder);
-    wo_json_integer(&out, "width", wo_rect_width(set->colour.bounds));
-    wo_json_integer(&out, "height", wo_rect_height(set->colour.bounds));
+    if (folder)
+        wo_json_text(&out, "folder", folder);
+    wo_json_integer(&out, "width", o->width);
+    wo_json_integer(&out, "height", o->height);
+    wo_json_integer(&out, "seed", (long long)o->seed);
+    wo_json_number(&out, "focalLength", o->focal_mm);
+    wo_json_number(&out, "sensorWidth", WO_FOOTAGE_SENSOR_MM);
+    wo_json_number(&out, "fStop", o->f_stop);
+    wo_json_number(&out, "focusDistance", o->focus_m);
+    wo_json_integer(&out, "blades", o->blades);
+    wo_json_number(&out, "rotation", o->rotation);
+    wo_json_integer(&out, "samples", o->samples);
     wo_json_integer(&out, "layers", set->layer_count);
+    wo_json_text(&out, "peel", o->peel == WO_FOOTAGE_HITS ? "hits" : "patches");
+    wo_json_bool(&out, "backFaces", o->back_faces);
+    wo_json_array(&out, "layerPixels");
+    for (int k = 0; k < set->layer_count; k++)
+        wo_json_integer(&out, NULL, set->layer_pixels[k]);
+    wo_json_close(&out);
     wo_json_integer(&out, "umbraDropped", set->umbra_dropped);
-    wo_json_integer(&out, "referenceSamples", set->options.reference_spp);
+    wo_json_integer(&out, "deeperDropped", set->deeper_dropped);
+    wo_json_integer(&out, "referenceSamples", o->reference_spp);
+    wo_json_integer(&out, "referenceBatches", set->batches);
     wo_json_number(&out, "referenceNoisePsnr", set->reference.data ? set->noise_psnr : NAN);
     wo_json_number(&out, "seconds", set->seconds[0] + set->seconds[1] + set->seconds[2]);
+    print_files(&out, set);
     wo_json_close(&out);
+}
+
+static bool save_facts(const wo_footage *set, const char *folder)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s/scene.json", folder);
+    FILE *const file = fopen(path, "w");
+    if (file) {
+        print_set(file, set, NULL);
+        const bool broken = ferror(file) != 0;
+        if (fclose(file) == 0 && !broken)
+            return true;
+    }
+    wo_message("%s: %s", path, strerror(errno));
+    return false;
+}
+
+static int report(const wo_args *args, const wo_footage *set, const char *folder)
+{
+    if (!save_facts(set, folder))
+        return WO_EXIT_FAILURE;
+    if (wo_args_count(args, "--json")) {
+        print_set(stdout, set, folder);
+        return WO_EXIT_OK;
+    }
+    wo_message("%s: %dx%d, %d layers in %s", set->scene->name, set->options.width,
+               set->options.height, set->layer_count, folder);
+    if (set->options.umbra)
+        wo_message("%" PRId64 " patches that no lens ray can reach were left out",
+                   set->umbra_dropped);
+    if (set->reference.data)
+        wo_message("reference of %d rays a pixel, its own noise at %.1f dB",
+                   set->options.reference_spp, set->noise_psnr);
     return WO_EXIT_OK;
 }
 

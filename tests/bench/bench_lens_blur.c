@@ -27,17 +27,17 @@ static wo_footage *make(const wo_context *context, const char *name, int width, 
 {
     wo_footage *set = NULL;
     wo_error error = {0};
-    const wo_footage_options options = {.scene = name, .width = width, .height = height,
-                                        .samples = 16, .layers = 4};
+    const wo_footage_options options = {
+        .scene = name, .width = width, .height = height, .samples = 16, .layers = 4};
     if (wo_footage_make(context, &options, &set, &error) != WO_OK)
         stop(&error);
     return set;
 }
 
 typedef struct timing {
-    double total;   /* s, planning and rendering */
-    double render;  /* s, rays */
-    double rays;    /* count */
+    double total;  /* s, planning and rendering */
+    double render; /* s, rays */
+    double rays;   /* count */
 } timing;
 
 static timing measure(const wo_context *context, const wo_footage *set, int layers, int samples)
@@ -80,8 +80,8 @@ static void twin_tile(void *user, size_t index, unsigned number)
                             t->rays->tiles.y1 + (int32_t)(tile / columns), &pixels, &report);
 }
 
-/* Seconds of the twin for the whole picture: the same scene with every tile marched over the range of
-   all depths, one pixel at a time. */
+/* Seconds of the twin for the whole picture: the same scene with every tile marched over the range
+   of all depths, one pixel at a time. */
 static double measure_twin(const wo_context *context, const wo_footage *set, int layers,
                            int samples)
 {
@@ -94,8 +94,7 @@ static double measure_twin(const wo_context *context, const wo_footage *set, int
     if (wo_lens_blur_plan_create(context, &params, &args, &plan, &error) != WO_OK)
         stop(&error);
     wo_lens_rays *rays = &plan->rays;
-    const size_t tiles =
-        (size_t)wo_rect_width(rays->tiles) * (size_t)wo_rect_height(rays->tiles);
+    const size_t tiles = (size_t)wo_rect_width(rays->tiles) * (size_t)wo_rect_height(rays->tiles);
     wo_bounds all[WO_SHEETS_MAX];
     for (int s = 0; s < plan->stack.sheets; s++) {
         bool gaps = false;

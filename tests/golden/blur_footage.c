@@ -4,8 +4,8 @@
 
 #include <stdlib.h>
 
-void blur_footage_setup(const wo_footage *set, int layers, int samples,
-                        wo_lens_blur_params *params, wo_image *inputs, wo_plan_args *args)
+void blur_footage_setup(const wo_footage *set, int layers, int samples, wo_lens_blur_params *params,
+                        wo_image *inputs, wo_plan_args *args)
 {
     wo_params_default(wo_lens_blur_table, WO_LENS_BLUR_PARAMS, params);
     params->focal_length = set->options.focal_mm;

@@ -16,8 +16,11 @@ enum { WIDTH = 320, HEIGHT = 180, REFERENCE = 192, LAYERS = 4, BORDER = 20 };
 static wo_footage *make(const char *scene)
 {
     const wo_context context = WO_CONTEXT_INIT;
-    const wo_footage_options options = {.scene = scene, .width = WIDTH, .height = HEIGHT,
-                                        .layers = LAYERS, .reference_spp = REFERENCE};
+    const wo_footage_options options = {.scene = scene,
+                                        .width = WIDTH,
+                                        .height = HEIGHT,
+                                        .layers = LAYERS,
+                                        .reference_spp = REFERENCE};
     wo_footage *set = NULL;
     wo_error error = {0};
     if (wo_footage_make(&context, &options, &set, &error) != WO_OK)
@@ -40,8 +43,8 @@ static wo_picture_error measure(const wo_footage *set, int layers, int samples)
     return result;
 }
 
-/* The bars stand about 1 dB below the figures measured at this small size, where the finest texture is
-   thinner than a pixel; the README has those of full frames. */
+/* The bars stand about 1 dB below the figures measured at this small size, where the finest texture
+   is thinner than a pixel; the README has those of full frames. */
 static void check_scene(const char *scene, double psnr_layers, double psnr_single)
 {
     const wo_context context = WO_CONTEXT_INIT;

@@ -7,11 +7,13 @@
 
 static const wo_rect frame = {-21, 9, 190, 140};
 
-static void scene_make(scene *s, int kind)
+static void scene_make_in(scene *s, int kind, wo_rect extent)
 {
-    scene_init(s, frame);
+    scene_init(s, extent);
     scene_px_per_dioptre(s, kind % 2 ? 14 : 45);
     s->params.samples = 12;
+    if (kind % 2) /* a window needs only a part of the picture */
+        s->params.max_radius = 7;
     s->params.blades = kind % 2 ? 6 : 0;
     s->params.seed = kind;
     if (kind < 2)
@@ -25,9 +27,14 @@ static void scene_make(scene *s, int kind)
     if (kind != 3)
         return;
     wo_image *const mask = scene_clip(s, WO_CLIP_MASK, 1);
-    for (int32_t y = frame.y1; y < frame.y2; y++)
-        for (int32_t x = frame.x1; x < frame.x2; x++)
+    for (int32_t y = extent.y1; y < extent.y2; y++)
+        for (int32_t x = extent.x1; x < extent.x2; x++)
             *wo_image_at(mask, x, y) = fminf(fmaxf(0.02f * (float)(x - 40), 0), 1);
+}
+
+static void scene_make(scene *s, int kind)
+{
+    scene_make_in(s, kind, frame);
 }
 
 /* A view of the part of a picture that lies in r. */
@@ -51,7 +58,7 @@ static void tiles_are_the_whole(void **state)
         scene s;
         scene_make(&s, kind);
         wo_image whole = scene_render(&s, NULL);
-        for (int n = 0; n < 12; n++) {
+        for (int n = 0; n < 24; n++) {
             wo_rect window = {rng_int(&r, frame.x1, frame.x2 - 1),
                               rng_int(&r, frame.y1, frame.y2 - 1), 0, 0};
             window.x2 = rng_int(&r, window.x1 + 1, n % 3 ? window.x1 + 50 : frame.x2 + 20);
@@ -76,6 +83,38 @@ static void tiles_are_the_whole(void **state)
                     if (!wo_rect_contains(frame, (wo_rect){x, y, x + 1, y + 1}))
                         for (int k = 0; k < 4; k++)
                             assert_true(wo_image_at(&out, x, y)[k] == 0);
+            picture_free(&out);
+        }
+        picture_free(&whole);
+        scene_free(&s);
+    }
+}
+
+/* Narrow windows far from each other's sight, on a picture so long that each needs but a part of
+   it: what lies hidden behind wide objects is the same all over. */
+static void parts_of_a_long_picture(void **state)
+{
+    (void)state;
+    const wo_context context = WO_CONTEXT_INIT;
+    const wo_rect extent = {-100, 0, 900, 24};
+    rng r = {17};
+    for (int kind = 0; kind < 3; kind += 2) {
+        scene s;
+        scene_make_in(&s, kind, extent);
+        s.params.max_radius = 30;
+        scene_px_per_dioptre(&s, 60);
+        /* A fence: posts of many widths, behind which much is hidden. */
+        for (int32_t x = extent.x1; x < extent.x2; x += rng_int(&r, 30, 90))
+            for (int32_t i = x; i < x + rng_int(&r, 5, 25) && i < extent.x2; i++)
+                for (int32_t y = 0; y < 24; y++)
+                    *wo_image_at(&s.clip[WO_CLIP_DEPTH], i, y) = 0.8f;
+        wo_image whole = scene_render(&s, NULL);
+        for (int n = 0; n < 16; n++) {
+            const int32_t x = rng_int(&r, extent.x1, extent.x2 - 30);
+            const wo_rect window = {x, 3, x + rng_int(&r, 1, 30), 20};
+            wo_image out = picture_make(window, 4);
+            assert_int_equal(scene_run(&s, &context, window, &out, NULL, NULL), WO_OK);
+            assert_true(picture_same_bytes(&out, &whole, window));
             picture_free(&out);
         }
         picture_free(&whole);
@@ -206,9 +245,9 @@ static void kernels_agree(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tiles_are_the_whole),    cmocka_unit_test(windows_of_one_plan),
-        cmocka_unit_test(threads_change_nothing), cmocka_unit_test(rows_may_lie_anyhow),
-        cmocka_unit_test(kernels_agree),
+        cmocka_unit_test(tiles_are_the_whole), cmocka_unit_test(parts_of_a_long_picture),
+        cmocka_unit_test(windows_of_one_plan), cmocka_unit_test(threads_change_nothing),
+        cmocka_unit_test(rows_may_lie_anyhow), cmocka_unit_test(kernels_agree),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -103,16 +103,21 @@ static void lenses(void **state)
 {
     (void)state;
     const double stops[] = {0.5, 0.01, 1e6};
-    const double focus[] = {0, -1, -1e-9, 1e-9, 0.01, 1e9, -1e9, 1e-300, 3};
+    const double focus[] = {0, -1, -1e-9, -1e-60, 1e9, -1e9, 3, 0.01, 1e-9, 1e-300};
     for (size_t i = 0; i < WO_COUNT(stops); i++)
-        for (size_t k = 0; k < WO_COUNT(focus); k++) {
+        for (size_t k = 0; k < 2 * WO_COUNT(focus); k++) {
             scene s = busy(small);
             s.params.f_stop = stops[i];
-            s.params.focus_distance = focus[k];
-            const wo_report report = finite(&s);
-            assert_true(report.largest_radius <= s.params.max_radius + 1e-3);
-            if (i == 1)
-                assert_true(report.clamped_radius > 0);
+            s.params.focus_distance = focus[k / 2];
+            s.params.breathing = k % 2;
+            if (k % 2 && focus[k / 2] > 0 && focus[k / 2] < 0.05) {
+                assert_int_equal(refused(&s, "focal length"), WO_ERR_RANGE);
+            } else {
+                const wo_report report = finite(&s);
+                assert_true(report.largest_radius <= s.params.max_radius + 1e-3);
+                if (i == 1 && k % 2 == 0)
+                    assert_true(report.clamped_radius > 0);
+            }
             scene_free(&s);
         }
 }

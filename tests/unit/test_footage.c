@@ -3,6 +3,7 @@
 #include "footage_test.h"
 
 #include "bridge_test.h"
+#include "scenes.h"
 
 static void scenes_are_listed(void **state)
 {
@@ -101,8 +102,14 @@ static void threads_do_not_matter_seeds_do(void **state)
     (void)state;
     static const char *const names[] = {"still-life", "night-lights"};
     for (size_t i = 0; i < WO_COUNT(names); i++) {
-        wo_footage_options o = {.scene = names[i], .width = 61, .height = 33, .samples = 7,
-                                .layers = 3, .reference_spp = 24, .umbra = i == 1, .seed = 5};
+        wo_footage_options o = {.scene = names[i],
+                                .width = 61,
+                                .height = 33,
+                                .samples = 7,
+                                .layers = 3,
+                                .reference_spp = 24,
+                                .umbra = i == 1,
+                                .seed = 5};
         wo_footage *one = make_set(&o, 1), *four = make_set(&o, 4), *again = make_set(&o, 3);
         assert_true(same_set(one, four));
         assert_true(same_set(one, again));
@@ -158,12 +165,19 @@ static void progress_rises_and_aborts(void **state)
     unsigned threads = 4;
     wo_error error = {0};
     wo_footage *set = NULL;
-    const wo_footage_options o = {.scene = "fence", .width = 48, .height = 27, .samples = 2,
-                                  .layers = 2, .reference_spp = 16};
+    const wo_footage_options o = {.scene = "fence",
+                                  .width = 48,
+                                  .height = 27,
+                                  .samples = 2,
+                                  .layers = 2,
+                                  .reference_spp = 16};
     for (int stop_after = 0; stop_after < 400; stop_after = stop_after ? stop_after * 7 : 1) {
         watch w = {.rising = true, .stop_after = stop_after};
-        wo_context context = {.runner = wo_threads_runner(&threads), .progress = note_progress,
-                              .progress_user = &w, .aborted = want_stop, .abort_user = &w};
+        wo_context context = {.runner = wo_threads_runner(&threads),
+                              .progress = note_progress,
+                              .progress_user = &w,
+                              .aborted = want_stop,
+                              .abort_user = &w};
         const wo_status status = wo_footage_make(&context, &o, &set, &error);
         assert_true(w.rising);
         if (stop_after == 0) {
@@ -203,7 +217,7 @@ static void failing_memory_is_survived(void **state)
     (void)state;
     const wo_footage_options all[] = {
         {.scene = "lamp", .width = 5, .height = 4, .samples = 1, .layers = 2, .reference_spp = 16},
-        {.scene = "fence", .width = 3, .height = 2, .samples = 1, .layers = 1, .umbra = true}};
+        {.scene = "two-planes", .width = 3, .height = 2, .samples = 1, .layers = 1, .umbra = true}};
     for (size_t i = 0; i < WO_COUNT(all); i++) {
         wo_status status = WO_ERR_NOMEM;
         int n = 0;
@@ -223,6 +237,27 @@ static void failing_memory_is_survived(void **state)
         }
         assert_int_equal(status, WO_OK);
         assert_true(n > 10);
+    }
+}
+
+/* The same for the descriptions, which know no failures of their own. */
+static void descriptions_survive_failing_memory(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < wo_scene_entry_count; i++) {
+        wo_status status = WO_ERR_NOMEM;
+        for (int n = 0; status != WO_OK && n < 1000; n++) {
+            heap h = {.left = n};
+            const wo_context context = {.allocator = {&h, heap_get, heap_put}};
+            wo_error error = {0};
+            wo_scene *scene = NULL;
+            status = wo_scene_create(&context, &wo_scene_entries[i], 4, 0.36, 0.2, &scene, &error);
+            assert_true(status == WO_OK || (status == WO_ERR_NOMEM && !scene));
+            assert_int_equal(error.status, status);
+            wo_scene_destroy(&context, &scene);
+            assert_int_equal(h.live, 0);
+        }
+        assert_int_equal(status, WO_OK);
     }
 }
 
@@ -261,9 +296,17 @@ static void files_hold_what_was_made(void **state)
     (void)state;
     wo_context context = WO_CONTEXT_INIT;
     wo_footage *set = NULL;
-    const wo_footage_options o = {.scene = "two-planes", .width = 40, .height = 21, .layers = 2,
-                                  .samples = 8, .reference_spp = 16, .seed = UINT64_MAX,
-                                  .f_stop = 2.5, .focus_m = 3, .blades = 6, .rotation = 12};
+    const wo_footage_options o = {.scene = "two-planes",
+                                  .width = 40,
+                                  .height = 21,
+                                  .layers = 2,
+                                  .samples = 8,
+                                  .reference_spp = 16,
+                                  .seed = UINT64_MAX,
+                                  .f_stop = 2.5,
+                                  .focus_m = 3,
+                                  .blades = 6,
+                                  .rotation = 12};
     assert_int_equal(wo_footage_render(&context, &o, test_folder, &set, &fault), WO_OK);
     wo_io_file *file = NULL;
     assert_int_equal(wo_io_read(in_folder(WO_FOOTAGE_PINHOLE), false, &file, &fault), WO_OK);
@@ -313,6 +356,7 @@ int main(void)
         cmocka_unit_test(seeds_move_samples_too),
         cmocka_unit_test(progress_rises_and_aborts),
         cmocka_unit_test(failing_memory_is_survived),
+        cmocka_unit_test(descriptions_survive_failing_memory),
         cmocka_unit_test_setup_teardown(files_hold_what_was_made, make_folder, remove_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -13,7 +13,8 @@ typedef struct lens {
 
 static lens lens_of(const wo_footage_options *o)
 {
-    const double focal_px = o->width * o->focal_mm / 36, radius = o->focal_mm * 1e-3 / (2 * o->f_stop);
+    const double focal_px = o->width * o->focal_mm / 36,
+                 radius = o->focal_mm * 1e-3 / (2 * o->f_stop);
     return (lens){focal_px * radius, 1 / o->focus_m, focal_px};
 }
 
@@ -40,18 +41,22 @@ static moments measure(const wo_image *image)
     return m;
 }
 
-/* A disc of radius R has the variance R^2 / 4 in each direction; the lamp's own disc and the pixel add
-   theirs. Place and amount of light are known as well. */
+/* A disc of radius R has the variance R^2 / 4 in each direction; the lamp's own disc and the pixel
+   add theirs. Place and amount of light are known as well. */
 static void lamp_has_the_circle_of_confusion(void **state)
 {
     (void)state;
     static const struct {
         double f_stop, focus;
-    } cases[] = {{1.4, 4},          {1.4, 0.6},  {2.8, 4},           {0.95, 0.7},
-                 {2, (double)INFINITY}, {4, -2},  {2.8, 0.4}};
+    } cases[] = {{1.4, 4}, {1.4, 0.6}, {2.8, 4}, {0.95, 0.7}, {2, (double)INFINITY},
+                 {4, -2},  {2.8, 0.4}};
     for (size_t i = 0; i < WO_COUNT(cases); i++) {
-        wo_footage_options o = {.scene = "lamp", .width = 160, .height = 90, .samples = 1,
-                                .reference_spp = 512, .f_stop = cases[i].f_stop,
+        wo_footage_options o = {.scene = "lamp",
+                                .width = 160,
+                                .height = 90,
+                                .samples = 1,
+                                .reference_spp = 256,
+                                .f_stop = cases[i].f_stop,
                                 .focus_m = cases[i].focus};
         wo_footage *set = make_set(&o, 4);
         const lens l = lens_of(&set->options);
@@ -68,8 +73,8 @@ static void lamp_has_the_circle_of_confusion(void **state)
         assert_true(fabs(m.y - (45 + l.focal_px * lamp->centre.y * v)) < 0.05);
         const double light = lamp->radiance[0] * 3.14159265358979 * own * own;
         if (fabs(m.sum / light - 1) > 0.03)
-            fail_msg("f/%g at %g m: light %g, expected %g", cases[i].f_stop, cases[i].focus,
-                     m.sum, light);
+            fail_msg("f/%g at %g m: light %g, expected %g", cases[i].f_stop, cases[i].focus, m.sum,
+                     light);
         free_set(&set);
     }
 }
@@ -85,8 +90,8 @@ static double brightness(const wo_footage *set, double radius, double degrees)
                        (int32_t)floor(cy + radius * sin(angle)))[0];
 }
 
-/* The unfocused lamp shows the polygon: upright when it is farther than the focus, turned round when it
-   is nearer, corners at the angle asked for. */
+/* The unfocused lamp shows the polygon: upright when it is farther than the focus, turned round
+   when it is nearer, corners at the angle asked for. */
 static void blades_make_a_polygon(void **state)
 {
     (void)state;
@@ -95,9 +100,15 @@ static void blades_make_a_polygon(void **state)
         double rotation, focus;
     } cases[] = {{5, 18, 4}, {5, 18, 0.55}, {3, 100, 4}, {6, -10, 4}, {7, 30, 0.55}};
     for (size_t i = 0; i < WO_COUNT(cases); i++) {
-        wo_footage_options o = {.scene = "lamp", .width = 480, .height = 270, .samples = 1,
-                                .reference_spp = 128, .f_stop = 0.9, .focus_m = cases[i].focus,
-                                .blades = cases[i].blades, .rotation = cases[i].rotation};
+        wo_footage_options o = {.scene = "lamp",
+                                .width = 240,
+                                .height = 136,
+                                .samples = 1,
+                                .reference_spp = 128,
+                                .f_stop = 0.45,
+                                .focus_m = cases[i].focus,
+                                .blades = cases[i].blades,
+                                .rotation = cases[i].rotation};
         wo_footage *set = make_set(&o, 4);
         const lens l = lens_of(&set->options);
         const double signed_radius = l.k * (1 - l.vf), radius = fabs(signed_radius);
@@ -142,11 +153,15 @@ static double difference(const wo_image *a, const wo_image *b, double *bias)
 static void tiny_aperture_is_the_pinhole(void **state)
 {
     (void)state;
-    static const char *const names[] = {"still-life", "night-lights", "fence",
+    static const char *const names[] = {"still-life", "night-lights",  "fence",
                                         "hair",       "slanted-plane", "two-planes"};
     for (size_t i = 0; i < WO_COUNT(names); i++) {
-        wo_footage_options o = {.scene = names[i], .width = 80, .height = 45, .samples = 256,
-                                .reference_spp = 256, .f_stop = 20000};
+        wo_footage_options o = {.scene = names[i],
+                                .width = 64,
+                                .height = 36,
+                                .samples = 128,
+                                .reference_spp = 128,
+                                .f_stop = 20000};
         wo_footage *set = make_set(&o, 4);
         double bias, error_sum = 0;
         const double rms = difference(&set->colour, &set->reference, &bias);
@@ -168,8 +183,12 @@ static void standard_error_is_honest(void **state)
     static const char *const names[] = {"two-planes", "slanted-plane", "lamp"};
     static const int rays[] = {32, 32, 256};
     for (size_t i = 0; i < WO_COUNT(names); i++) {
-        wo_footage_options o = {.scene = names[i], .width = 192, .height = 108, .samples = 1,
-                                .reference_spp = rays[i], .focus_m = i == 2 ? 0.35 : 1};
+        wo_footage_options o = {.scene = names[i],
+                                .width = 192,
+                                .height = 108,
+                                .samples = 1,
+                                .reference_spp = rays[i],
+                                .focus_m = i == 2 ? 0.35 : 1};
         wo_footage *a = make_set(&o, 4);
         o.seed = 77;
         wo_footage *b = make_set(&o, 4);
@@ -198,8 +217,8 @@ static double shown(double value)
 static void noise_psnr_is_honest(void **state)
 {
     (void)state;
-    wo_footage_options o = {.scene = "slanted-plane", .width = 96, .height = 54, .samples = 1,
-                            .reference_spp = 64};
+    wo_footage_options o = {
+        .scene = "slanted-plane", .width = 96, .height = 54, .samples = 1, .reference_spp = 64};
     wo_footage *a = make_set(&o, 4);
     o.seed = 3;
     wo_footage *b = make_set(&o, 4);
@@ -221,8 +240,8 @@ static void noise_psnr_is_honest(void **state)
 static void error_falls_with_rays(void **state)
 {
     (void)state;
-    wo_footage_options o = {.scene = "fence", .width = 64, .height = 36, .samples = 1,
-                            .reference_spp = 64};
+    wo_footage_options o = {
+        .scene = "fence", .width = 64, .height = 36, .samples = 1, .reference_spp = 64};
     wo_footage *few = make_set(&o, 4);
     o.reference_spp = 1024;
     wo_footage *many = make_set(&o, 4);
@@ -257,7 +276,8 @@ static void aperture_is_filled_evenly(void **state)
         assert_true(fabs(x / COUNT) < 0.01 && fabs(y / COUNT) < 0.01);
         int open = 0;
         for (int i = 0; i < 400 * 400; i++) {
-            const float u[2] = {((float)(i % 400) - 199.5f) / 200, ((float)(i / 400) - 199.5f) / 200};
+            const float u[2] = {((float)(i % 400) - 199.5f) / 200,
+                                ((float)(i / 400) - 199.5f) / 200};
             open += wo_camera_open(&camera, u);
         }
         assert_true(fabs(open / (200.0 * 200.0) / area - 1) < 0.005);

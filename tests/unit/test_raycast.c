@@ -31,9 +31,9 @@ static void add_box(wo_raycast *cast, int kind, float z)
         corners[i][1] = i & 2 ? 1.0f : -1.0f;
         corners[i][2] = z + (i & 4 ? 1.0f : -1.0f);
     }
-    assert_int_equal(wo_raycast_add_quads(cast, kind, (const float(*)[3])corners, 8, box_faces, 6,
-                                          NULL, &error),
-                     WO_OK);
+    assert_int_equal(
+        wo_raycast_add_quads(cast, kind, (const float(*)[3])corners, 8, box_faces, 6, NULL, &error),
+        WO_OK);
 }
 
 static wo_ray ray_at(float x, float y, float near)
@@ -89,8 +89,8 @@ static void quad_coordinates_follow_the_corners(void **state)
     static const uint32_t face[1][4] = {{0, 1, 2, 3}};
     wo_raycast *cast = new_cast();
     wo_error error = {0};
-    assert_int_equal(
-        wo_raycast_add_quads(cast, WO_RAYCAST_OPEN, corners, 4, face, 1, NULL, &error), WO_OK);
+    assert_int_equal(wo_raycast_add_quads(cast, WO_RAYCAST_OPEN, corners, 4, face, 1, NULL, &error),
+                     WO_OK);
     assert_int_equal(wo_raycast_commit(cast, &error), WO_OK);
     for (int i = 0; i < 12; i++)
         for (int k = 0; k < 12; k++) {
@@ -203,12 +203,10 @@ static void bad_arrays_are_refused(void **state)
     static const float corners[4][3] = {{0}};
     wo_raycast *cast = new_cast();
     wo_error error = {0};
-    assert_int_equal(
-        wo_raycast_add_rods(cast, WO_RAYCAST_OPEN, points, 2, beyond, 1, NULL, &error),
-        WO_ERR_RANGE);
-    assert_int_equal(
-        wo_raycast_add_quads(cast, WO_RAYCAST_OPEN, corners, 4, face, 1, NULL, &error),
-        WO_ERR_RANGE);
+    assert_int_equal(wo_raycast_add_rods(cast, WO_RAYCAST_OPEN, points, 2, beyond, 1, NULL, &error),
+                     WO_ERR_RANGE);
+    assert_int_equal(wo_raycast_add_quads(cast, WO_RAYCAST_OPEN, corners, 4, face, 1, NULL, &error),
+                     WO_ERR_RANGE);
     assert_int_equal(wo_raycast_add_spheres(cast, WO_RAYCAST_OPEN, points, 0, NULL, &error),
                      WO_ERR_ARGUMENT);
     wo_raycast_destroy(&cast);
