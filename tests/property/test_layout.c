@@ -101,15 +101,19 @@ static void parts_of_a_long_picture(void **state)
     for (int kind = 0; kind < 3; kind += 2) {
         scene s;
         scene_make_in(&s, kind, extent);
-        s.params.max_radius = 30;
-        scene_px_per_dioptre(&s, 60);
-        /* A fence: posts of many widths, behind which much is hidden. */
-        for (int32_t x = extent.x1; x < extent.x2; x += rng_int(&r, 30, 90))
-            for (int32_t i = x; i < x + rng_int(&r, 5, 25) && i < extent.x2; i++)
+        /* Posts with 20 px of blur in front of the focus, what is behind them with some 30 px: rays
+           past an edge see deep behind the post. */
+        s.params.max_radius = 32;
+        s.params.focus_distance = 1 / 1.28;
+        scene_px_per_dioptre(&s, 28);
+        for (int32_t x = extent.x1; x < extent.x2;) {
+            for (int32_t end = x + rng_int(&r, 60, 120); x < end && x < extent.x2; x++)
                 for (int32_t y = 0; y < 24; y++)
-                    *wo_image_at(&s.clip[WO_CLIP_DEPTH], i, y) = 0.8f;
+                    *wo_image_at(&s.clip[WO_CLIP_DEPTH], x, y) = 0.5f;
+            x += rng_int(&r, 30, 60);
+        }
         wo_image whole = scene_render(&s, NULL);
-        for (int n = 0; n < 16; n++) {
+        for (int n = 0; n < 40; n++) {
             const int32_t x = rng_int(&r, extent.x1, extent.x2 - 30);
             const wo_rect window = {x, 3, x + rng_int(&r, 1, 30), 20};
             wo_image out = picture_make(window, 4);
