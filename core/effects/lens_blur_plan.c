@@ -17,6 +17,12 @@ double wo_seconds(void)
 /* Layers, then split edges, then what is hidden. */
 enum { EDGES = WO_LENS_BLUR_LAYERS, HIDDEN, SHEETS };
 
+/* Between the steps of planning: does the caller still want the picture? */
+static wo_status go_on(const wo_context *context, wo_error *error)
+{
+    return wo_aborted(context) ? wo_fail(error, WO_ABORTED, "stopped by the user") : WO_OK;
+}
+
 static void destroy_sheets(const wo_context *context, wo_sheet sheets[SHEETS])
 {
     for (int i = 0; i < SHEETS; i++)
@@ -64,6 +70,7 @@ static wo_status load_layers(const wo_plan *plan, const wo_plan_args *args, wo_r
             .v_max = setup->v_max,
         };
         WO_TRY(wo_sheet_load(&plan->context, &source, plan->window, &sheets[i], counts, error));
+        WO_TRY(go_on(&plan->context, error));
     }
     return WO_OK;
 }
@@ -130,9 +137,11 @@ static wo_status build_scene(wo_plan *plan, const wo_plan_args *args, wo_error *
     if (status == WO_OK && plan->setup.fill_levels > 0) {
         status = empty_sheet(context, area, &sheets[EDGES], error);
         for (int i = 0; status == WO_OK && i < WO_LENS_BLUR_LAYERS; i++)
-            if (sheets[i].any)
+            if (sheets[i].any && (status = go_on(context, error)) == WO_OK)
                 status = wo_sheet_split_edges(context, plan->lens.px_per_dioptre, &sheets[i],
                                               &sheets[EDGES], &split, error);
+        if (status == WO_OK)
+            status = go_on(context, error);
         if (status == WO_OK)
             status = empty_sheet(context, area, &sheets[HIDDEN], error);
         if (status == WO_OK)
@@ -140,10 +149,14 @@ static wo_status build_scene(wo_plan *plan, const wo_plan_args *args, wo_error *
                                           plan->setup.fill_levels, &sheets[HIDDEN], error);
     }
     if (status == WO_OK)
+        status = go_on(context, error);
+    if (status == WO_OK)
         status = wo_highlights_take(context, sheets, SHEETS, wo_rect_intersect(areas.stack, extent),
                                     &plan->lens, &plan->highlights, error);
     plan->report.seconds[WO_STAGE_INPUT] += wo_seconds() - start;
     start = wo_seconds();
+    if (status == WO_OK)
+        status = go_on(context, error);
     if (status == WO_OK)
         status = wo_stack_create(context, sheets, SHEETS, opaque, areas.stack, extent, &plan->stack,
                                  error);
