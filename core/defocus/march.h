@@ -31,12 +31,12 @@ typedef struct wo_march_view {
     const float *opaque;             /* 1 where the scene as given lets no light through, else 0 */
     ptrdiff_t run, row;              /* of the stack */
     wo_bounds bounds[WO_SHEETS_MAX]; /* of each sheet over the footprint of the tile */
-    const wo_bounds *spans[WO_SHEETS_MAX];
+    const wo_span *spans[WO_SHEETS_MAX];
     int32_t span_columns;
     float v_connect; /* dioptres: neighbours closer than this are one surface */
 } wo_march_view;
 
-/* Sums over a pencil, for the eight pixels of a vector. */
+/* Sums over a pencil, for the pixels of a vector. */
 typedef struct wo_march_sums {
     float c[4][WO_LANES]; /* r g b a, times weight */
     float weight[WO_LANES];

@@ -51,9 +51,9 @@ WO_SIMD ptrdiff_t place(const wo_march_view *view, int32_t x, int32_t y, int run
 
 /* Colour of sheet s around the pixels at (dx, dy), at the fractions (tx, ty) beside their centres:
    Dodgson's quadratic interpolation (1997). Neighbours on another surface lend the pixel's own
-   colour. */
+   colour; joined = there are none. */
 WO_SIMD void sample_smooth(const wo_march_view *view, int s, int32_t x, int32_t y, int run_index,
-                           int dx, int dy, vf tx, vf ty, vf out[4])
+                           int dx, int dy, vf tx, vf ty, bool joined, vf out[4])
 {
     const vf half = v_set(0.5f);
     const vf one = v_set(1);
@@ -76,9 +76,12 @@ WO_SIMD void sample_smooth(const wo_march_view *view, int s, int32_t x, int32_t 
                 continue;
             const ptrdiff_t at = column[a] + (b - 1) * view->row;
             const vf w = v_mul(wx[a], wy[b]);
-            const vm joined = v_less_equal(v_abs(v_sub(v_load(view->v[s] + at), v)), limit);
-            const vf here = v_mask(joined, w);
-            own = v_add(own, v_sub(w, here));
+            vf here = w;
+            if (!joined) {
+                const vf away = v_abs(v_sub(v_load(view->v[s] + at), v));
+                here = v_mask(v_less_equal(away, limit), w);
+                own = v_add(own, v_sub(w, here));
+            }
             for (int k = 0; k < 4; k++)
                 out[k] = v_fma(here, v_load(view->c[s][k] + at), out[k]);
         }
@@ -168,6 +171,7 @@ typedef struct stretch {
     int count;
     int sheet[WO_SHEETS_MAX];
     int from[WO_SHEETS_MAX], to[WO_SHEETS_MAX];
+    bool joined[WO_SHEETS_MAX]; /* neighbours are one surface everywhere */
     int first, last;
     int next; /* no sheet can be met between the end of this part and this step */
 } stretch;
@@ -230,7 +234,7 @@ WO_SIMD void look_ahead(const wo_march_view *view, int32_t x, int32_t y, int run
         }
         if (first > w->to[s] || last < w->from[s])
             continue;
-        const wo_bounds b = view->spans[s][cell];
+        const wo_span b = view->spans[s][cell];
         const float nearest_step = w->base - w->fall * b.v_max - 0.51f;
         const float farthest_step = w->base - w->fall * b.v_min + (0.51f + WO_CONNECT_PX);
         if (!(nearest_step <= (float)last && farthest_step >= (float)first))
@@ -244,6 +248,7 @@ WO_SIMD void look_ahead(const wo_march_view *view, int32_t x, int32_t y, int run
         if (from > to)
             continue;
         out->sheet[out->count] = s;
+        out->joined[out->count] = b.step <= view->v_connect;
         out->from[out->count] = from;
         out->to[out->count++] = to;
         out->first = from < out->first ? from : out->first;
@@ -274,7 +279,8 @@ WO_SIMD meeting meet_sheet(const float *plane, ptrdiff_t at, vf fall, vf origin,
 
 /* Colour at a meeting; at is the place of the pixels at step i (dx, dy from the ray's own). */
 WO_SIMD void colour_of(const wo_march_view *view, int s, int32_t x, int32_t y, int run_index,
-                       const way *w, int i, int j, ptrdiff_t at, const meeting *m, vf c[4])
+                       const way *w, int i, int j, ptrdiff_t at, const meeting *m, bool joined,
+                       vf c[4])
 {
     if (i > WO_SMOOTH_PX || i < -WO_SMOOTH_PX) {
         for (int k = 0; k < 4; k++)
@@ -287,9 +293,9 @@ WO_SIMD void colour_of(const wo_march_view *view, int s, int32_t x, int32_t y, i
     const vf across =
         v_fma(v_set(w->l.slope), t, v_set(w->l.n0 + w->l.slope * (float)i - (float)j));
     if (w->l.upright)
-        sample_smooth(view, s, x, y, run_index, j, i, across, t, c);
+        sample_smooth(view, s, x, y, run_index, j, i, across, t, joined, c);
     else
-        sample_smooth(view, s, x, y, run_index, i, j, t, across, c);
+        sample_smooth(view, s, x, y, run_index, i, j, t, across, joined, c);
 }
 
 /* What a vector's rays know on their way. */
@@ -320,7 +326,10 @@ WO_SIMD void travel_one(const wo_march_view *view, int32_t x, int32_t y, int run
         if (!m_any(m.mask))
             continue;
         vf c[4];
-        colour_of(view, s, x, y, run_index, w, i, j, at, &m, c);
+        if (part->joined[0])
+            colour_of(view, s, x, y, run_index, w, i, j, at, &m, true, c);
+        else
+            colour_of(view, s, x, y, run_index, w, i, j, at, &m, false, c);
         meet(&t->r, m.mask, c, view->guessed[s]);
         t->alive = v_less(v_set(WO_LIGHT_MIN), t->r.light);
         if (!m_any(t->alive))
@@ -357,7 +366,7 @@ WO_SIMD void travel_many(const wo_march_view *view, int32_t x, int32_t y, int ru
             h->mask = m.mask;
             h->v = m.v;
             h->sheet = s;
-            colour_of(view, s, x, y, run_index, w, i, j, at, &m, h->c);
+            colour_of(view, s, x, y, run_index, w, i, j, at, &m, false, h->c);
         }
         if (count == 0)
             continue;
@@ -470,9 +479,9 @@ static void single(const wo_march_view *view, int32_t x, int32_t y, int run_inde
             const vf t = v_fma(v_set(l.bm), v_load(view->v[0] + at), v_set(l.am - (float)i));
             const vf u = v_fma(v_set(l.slope), t, v_set(across - (float)j));
             if (l.upright)
-                sample_smooth(view, 0, x, y, run_index, dx, dy, u, t, c);
+                sample_smooth(view, 0, x, y, run_index, dx, dy, u, t, true, c);
             else
-                sample_smooth(view, 0, x, y, run_index, dx, dy, t, u, c);
+                sample_smooth(view, 0, x, y, run_index, dx, dy, t, u, true, c);
         } else {
             for (int k = 0; k < 4; k++)
                 c[k] = v_load(view->c[0][k] + at);

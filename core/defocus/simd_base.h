@@ -3,17 +3,18 @@
 #ifndef WO_CORE_DEFOCUS_SIMD_BASE_H
 #define WO_CORE_DEFOCUS_SIMD_BASE_H
 
-/* Vectors of eight floats as two of four, in the compiler's own vector types: any machine. */
+/* Vectors of sixteen floats as two of eight, in the compiler's own vector types, which it splits
+   into what the machine has: any machine. */
 #include <stdint.h>
 #include <string.h>
 
-typedef float f4 __attribute__((vector_size(16)));
-typedef int32_t m4 __attribute__((vector_size(16)));
+typedef float f8 __attribute__((vector_size(32)));
+typedef int32_t m8 __attribute__((vector_size(32)));
 typedef struct vf {
-    f4 a, b;
+    f8 a, b;
 } vf;
 typedef struct vm {
-    m4 a, b;
+    m8 a, b;
 } vm;
 
 #define WO_SIMD           static inline __attribute__((always_inline))
@@ -21,20 +22,20 @@ typedef struct vm {
 
 WO_SIMD vf v_set(float x)
 {
-    const f4 a = {x, x, x, x};
+    const f8 a = {x, x, x, x, x, x, x, x};
     return (vf){a, a};
 }
 WO_SIMD vf v_load(const float *p)
 {
     vf r;
     memcpy(&r.a, p, sizeof r.a);
-    memcpy(&r.b, p + 4, sizeof r.b);
+    memcpy(&r.b, p + 8, sizeof r.b);
     return r;
 }
 WO_SIMD void v_store(float *p, vf x)
 {
     memcpy(p, &x.a, sizeof x.a);
-    memcpy(p + 4, &x.b, sizeof x.b);
+    memcpy(p + 8, &x.b, sizeof x.b);
 }
 WO_SIMD vf v_add(vf x, vf y)
 {
@@ -80,29 +81,30 @@ WO_SIMD vm m_except(vm x, vm y)
 }
 WO_SIMD vm m_set(int32_t x)
 {
-    const m4 a = {x, x, x, x};
+    const m8 a = {x, x, x, x, x, x, x, x};
     return (vm){a, a};
 }
 WO_SIMD int m_any(vm x)
 {
-    const m4 o = x.a | x.b;
-    int64_t q[2];
+    const m8 o = x.a | x.b;
+    int64_t q[4];
     memcpy(q, &o, sizeof q);
-    return (q[0] | q[1]) != 0;
+    return (q[0] | q[1] | q[2] | q[3]) != 0;
 }
 /* where m: x, else y */
 WO_SIMD vf v_select(vm m, vf x, vf y)
 {
-    return (vf){(f4)((m.a & (m4)x.a) | (~m.a & (m4)y.a)), (f4)((m.b & (m4)x.b) | (~m.b & (m4)y.b))};
+    return (vf){(f8)((m.a & (m8)x.a) | (~m.a & (m8)y.a)), (f8)((m.b & (m8)x.b) | (~m.b & (m8)y.b))};
 }
 WO_SIMD vf v_mask(vm m, vf x)
 {
-    return (vf){(f4)(m.a & (m4)x.a), (f4)(m.b & (m4)x.b)};
+    return (vf){(f8)(m.a & (m8)x.a), (f8)(m.b & (m8)x.b)};
 }
 WO_SIMD vf v_abs(vf x)
 {
-    const m4 k = {INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX};
-    return (vf){(f4)((m4)x.a & k), (f4)((m4)x.b & k)};
+    const m8 k = {INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX,
+                  INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX};
+    return (vf){(f8)((m8)x.a & k), (f8)((m8)x.b & k)};
 }
 
 #endif

@@ -5,7 +5,7 @@
 #include <math.h>
 
 /* Rows end in spare floats, so that a vector that starts inside never leaves the memory. */
-enum { SPARE = 16 };
+enum { SPARE = WO_LANES };
 
 static int32_t floor_to(int32_t x, int32_t grid)
 {
@@ -51,28 +51,49 @@ static void pack_row(void *user, size_t index, unsigned worker)
     }
 }
 
+static float vergence_at(const wo_stack *stack, int s, int32_t x, int32_t y)
+{
+    const wo_rect a = stack->area;
+    x = x < a.x1 ? a.x1 : x >= a.x2 ? a.x2 - 1 : x;
+    y = y < a.y1 ? a.y1 : y >= a.y2 ? a.y2 - 1 : y;
+    return stack->v[s][wo_stack_at(stack, x, y)];
+}
+
+/* Bounds of one cell; its range together with the ring of pixels around it. */
+static void bound_cell(const wo_stack *stack, int s, int32_t x1, int32_t y1, size_t cell)
+{
+    wo_bounds in = {INFINITY, -INFINITY};
+    wo_bounds around = in;
+    bool gap = false;
+    bool gap_around = false;
+    for (int32_t y = y1 - 1; y <= y1 + WO_CELL; y++) {
+        for (int32_t x = x1 - 1; x <= x1 + WO_CELL; x++) {
+            const float v = vergence_at(stack, s, x, y);
+            gap_around |= isnan(v);
+            around.v_min = v < around.v_min ? v : around.v_min;
+            around.v_max = v > around.v_max ? v : around.v_max;
+            if (x < x1 || x >= x1 + WO_CELL || y < y1 || y >= y1 + WO_CELL)
+                continue;
+            gap |= isnan(v);
+            in.v_min = v < in.v_min ? v : in.v_min;
+            in.v_max = v > in.v_max ? v : in.v_max;
+        }
+    }
+    stack->cells[s][cell] = in;
+    stack->steps[s][cell] = gap_around ? INFINITY : around.v_max - around.v_min;
+    stack->gaps[s][cell] = gap;
+}
+
 static void bound_row(void *user, size_t index, unsigned worker)
 {
     (void)worker;
     const pack_job *job = user;
     const wo_stack *stack = job->stack;
     const size_t first = index * (size_t)stack->cell_columns;
-    for (int s = 0; s < stack->sheets; s++) {
-        for (int32_t i = 0; i < stack->cell_columns; i++) {
-            wo_bounds bounds = {INFINITY, -INFINITY};
-            bool gap = false;
-            for (int32_t p = 0; p < WO_CELL * WO_CELL; p++) {
-                const int32_t x = stack->area.x1 + i * WO_CELL + p % WO_CELL;
-                const int32_t y = stack->area.y1 + (int32_t)index * WO_CELL + p / WO_CELL;
-                const float v = stack->v[s][wo_stack_at(stack, x, y)];
-                gap |= isnan(v);
-                bounds.v_min = v < bounds.v_min ? v : bounds.v_min;
-                bounds.v_max = v > bounds.v_max ? v : bounds.v_max;
-            }
-            stack->cells[s][first + (size_t)i] = bounds;
-            stack->gaps[s][first + (size_t)i] = gap;
-        }
-    }
+    for (int s = 0; s < stack->sheets; s++)
+        for (int32_t i = 0; i < stack->cell_columns; i++)
+            bound_cell(stack, s, stack->area.x1 + i * WO_CELL,
+                       stack->area.y1 + (int32_t)index * WO_CELL, first + (size_t)i);
 }
 
 /* Min/max N-buffers (Decoret 2005) of one size. */
@@ -85,12 +106,14 @@ static void span_row(void *user, size_t index, unsigned worker)
     const size_t rows = (size_t)stack->cell_rows;
     for (int s = 0; s < stack->sheets; s++) {
         for (size_t i = 0; i < columns; i++) {
-            wo_bounds span = {INFINITY, -INFINITY};
+            wo_span span = {INFINITY, -INFINITY, 0};
             for (size_t j = index; j < index + WO_SPAN_Y && j < rows; j++)
                 for (size_t k = i; k < i + WO_SPAN_X && k < columns; k++) {
                     const wo_bounds cell = stack->cells[s][j * columns + k];
+                    const float step = stack->steps[s][j * columns + k];
                     span.v_min = cell.v_min < span.v_min ? cell.v_min : span.v_min;
                     span.v_max = cell.v_max > span.v_max ? cell.v_max : span.v_max;
+                    span.step = step > span.step ? step : span.step;
                 }
             stack->spans[s][index * columns + i] = span;
         }
@@ -119,7 +142,8 @@ wo_status wo_stack_create(const wo_context *context, const wo_sheet *sheets, siz
         const size_t plane = (size_t)stack->row * h;
         const size_t cells = (size_t)stack->cell_columns * (size_t)stack->cell_rows;
         stack->cell_memory = wo_new(context, error, cells * (size_t)stack->sheets,
-                                    2 * sizeof **stack->cells + sizeof **stack->gaps);
+                                    sizeof **stack->cells + sizeof **stack->spans +
+                                        sizeof **stack->steps + sizeof **stack->gaps);
         stack->memory = wo_new_large(context, error, plane,
                                      ((size_t)stack->sheets * 5 + 1) * sizeof *stack->memory);
         if (!stack->memory || !stack->cell_memory) {
@@ -129,9 +153,11 @@ wo_status wo_stack_create(const wo_context *context, const wo_sheet *sheets, siz
         float *next = stack->memory;
         stack->opaque = next;
         next += plane;
+        const size_t all = cells * (size_t)stack->sheets;
         wo_bounds *const bounds = stack->cell_memory;
-        wo_bounds *const spans = bounds + cells * (size_t)stack->sheets;
-        bool *const gaps = (bool *)(spans + cells * (size_t)stack->sheets);
+        wo_span *const spans = (wo_span *)(bounds + all);
+        float *const steps = (float *)(spans + all);
+        bool *const gaps = (bool *)(steps + all);
         for (int s = 0; s < stack->sheets; s++) {
             stack->v[s] = next;
             for (int k = 0; k < 4; k++)
@@ -139,6 +165,7 @@ wo_status wo_stack_create(const wo_context *context, const wo_sheet *sheets, siz
             next += 5 * plane;
             stack->cells[s] = bounds + cells * (size_t)s;
             stack->spans[s] = spans + cells * (size_t)s;
+            stack->steps[s] = steps + cells * (size_t)s;
             stack->gaps[s] = gaps + cells * (size_t)s;
         }
     }

@@ -8,25 +8,31 @@
 /* The scene as the kernels read it: every sheet as five float planes over one area, edges repeated
    beyond the extent, so that no ray ever needs a bounds check.
 
-   A row holds its pixels in WO_PHASES runs: pixel x lies in run x & 3 at place x >> 2. Eight
+   A row holds its pixels in WO_PHASES runs: pixel x lies in run x & 3 at place x >> 2. Sixteen
    neighbours of one run are four pixels apart in the picture; they form the vector of a kernel and
    share a lens sample, while the pixels between them use other samples: no pattern shows, and
    every load is contiguous whatever the offset. */
 #define WO_PHASES      4
-#define WO_LANES       8
+#define WO_LANES       16
 #define WO_BLOCK       (WO_PHASES * WO_LANES) /* px of one row that four vectors cover */
 #define WO_TILE_WIDTH  WO_BLOCK
-#define WO_TILE_HEIGHT 16
+#define WO_TILE_HEIGHT 8
 #define WO_SHEETS_MAX  10
 #define WO_CELL        8 /* px, side of a cell of bounds */
 /* What a vector can touch in WO_CELL steps of a ray, wherever it starts in a cell. */
-#define WO_SPAN_X 6
+#define WO_SPAN_X 10
 #define WO_SPAN_Y 2
 
 /* Bounds of one sheet over some pixels; v_min > v_max when it has no surface there. */
 typedef struct wo_bounds {
     float v_min, v_max;
 } wo_bounds;
+
+/* The same over all that a vector can touch in one stretch of a ray. */
+typedef struct wo_span {
+    float v_min, v_max;
+    float step; /* dioptres: no two neighbours differ by more; infinite where a pixel is empty */
+} wo_span;
 
 typedef struct wo_stack {
     wo_rect area;  /* x1 is a multiple of WO_BLOCK, y1 of WO_CELL */
@@ -40,8 +46,9 @@ typedef struct wo_stack {
     float *memory;
     int32_t cell_columns, cell_rows;
     wo_bounds *cells[WO_SHEETS_MAX]; /* [rows][columns] */
-    wo_bounds *spans[WO_SHEETS_MAX]; /* [rows][columns] over the WO_SPAN_X x WO_SPAN_Y cells from
+    wo_span *spans[WO_SHEETS_MAX];   /* [rows][columns] over the WO_SPAN_X x WO_SPAN_Y cells from
                                         here on */
+    float *steps[WO_SHEETS_MAX];     /* [rows][columns] wo_span.step of one cell */
     bool *gaps[WO_SHEETS_MAX];       /* [rows][columns] true = the sheet is empty somewhere */
     void *cell_memory;
 } wo_stack;

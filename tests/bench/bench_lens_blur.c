@@ -15,7 +15,9 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { TWIN_PART = 16, REPEATS = 3, THREADS_MAX = 256 };
+enum { TWIN_PART = 16, THREADS_MAX = 256 };
+
+static int repeats = 3;
 
 static void stop(const wo_error *error)
 {
@@ -43,7 +45,7 @@ typedef struct timing {
 static timing measure(const wo_context *context, const wo_footage *set, int layers, int samples)
 {
     timing best = {1e30, 1e30, 0};
-    for (int i = 0; i < REPEATS; i++) {
+    for (int i = 0; i < repeats; i++) {
         wo_image out;
         wo_report report = {0};
         wo_error error = {0};
@@ -128,21 +130,32 @@ int main(int argc, char **argv)
 {
     unsigned threads = (unsigned)sysconf(_SC_NPROCESSORS_ONLN);
     const char *name = "still-life";
+    int width = 1920;
+    bool quick = false;
     for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "--threads") == 0 && i + 1 < argc) {
             threads = (unsigned)strtoul(argv[++i], NULL, 10);
         } else if (strcmp(argv[i], "--scene") == 0 && i + 1 < argc) {
             name = argv[++i];
+        } else if (strcmp(argv[i], "--repeats") == 0 && i + 1 < argc) {
+            repeats = atoi(argv[++i]);
+        } else if (strcmp(argv[i], "--width") == 0 && i + 1 < argc) {
+            width = atoi(argv[++i]);
+        } else if (strcmp(argv[i], "--quick") == 0) {
+            quick = true;
         } else {
-            fprintf(stderr, "usage: bench_lens_blur [--threads N] [--scene NAME]\n");
+            fprintf(stderr, "usage: bench_lens_blur [--threads N] [--scene NAME] [--width PX] "
+                            "[--repeats N] [--quick]\n");
             return 2;
         }
     }
+    if (repeats < 1)
+        repeats = 1;
     if (threads < 1 || threads > THREADS_MAX)
         threads = 1;
     wo_context context = WO_CONTEXT_INIT;
     context.runner = threads_runner(&threads);
-    wo_footage *hd = make(&context, name, 1920, 1080);
+    wo_footage *hd = make(&context, name, width, width * 9 / 16);
     printf("%u threads, %s\n", threads,
            wo_cpu_detect(WO_CPU_AUTO) & WO_CPU_AVX2 ? "AVX2" : "plain kernels");
 
@@ -150,6 +163,10 @@ int main(int argc, char **argv)
     static const int layers[] = {0, 1, 2, 4};
     for (size_t i = 0; i < WO_COUNT(layers); i++)
         row(name, hd, layers[i], 64, measure(&context, hd, layers[i], 64));
+    if (quick) {
+        wo_footage_destroy(&context, &hd);
+        return 0;
+    }
     for (size_t i = 0; i < WO_COUNT(samples); i++)
         row(name, hd, 2, samples[i], measure(&context, hd, 2, samples[i]));
     static const int sizes[][2] = {{960, 540}, {1920, 1080}, {3840, 2160}};

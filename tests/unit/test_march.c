@@ -11,7 +11,7 @@ static const wo_context plain = WO_CONTEXT_INIT;
 
 /* A stack around one block of pixels, wide enough for rays of REACH px, and its lens. */
 enum { REACH = 60, ROWS = 8, RAYS = 300 };
-static const wo_rect area = {-64, -72, 96, 80};
+static const wo_rect area = {-64, -72, 128, 80};
 typedef struct field {
     wo_stack stack;
     wo_march_view view;
@@ -61,7 +61,7 @@ static void field_make(field *f, rng *r, int sheets, double radius)
                      WO_OK);
     f->lens = wo_thin_pencils_lens(f->pencils);
     wo_sheet sheet[WO_SHEETS_MAX] = {{.v = NULL}};
-    static uint8_t opaque[160 * 152];
+    static uint8_t opaque[192 * 152];
     const bool solid = rng_unit(r) < 0.7;
     for (int s = 0; s < sheets; s++) {
         random_sheet(&sheet[s], r, radius / k, solid && s == sheets - 1);
@@ -221,7 +221,7 @@ static void half_the_connection(const wo_march_view *view, int32_t x, int32_t y,
 static void blind_to_loss(const wo_march_view *view, int32_t x, int32_t y, int run_index,
                           const wo_pencil *pencil, wo_march_sums *sums)
 {
-    static const float zeros[160 * 152 * 2];
+    static const float zeros[192 * 152 * 2];
     wo_march_view wrong = *view;
     wrong.opaque = zeros;
     wo_march_base.march(&wrong, x, y, run_index, pencil, sums);

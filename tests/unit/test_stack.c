@@ -69,7 +69,7 @@ static void pixels_have_places_of_their_own(void **state)
             const ptrdiff_t at = wo_stack_at(&stack, x, y);
             assert_true(at >= 0 && (size_t)at < size);
             assert_int_equal(seen[at]++, 0);
-            /* Eight pixels, four apart, lie side by side. */
+            /* Pixels of a vector, four apart, lie side by side. */
             if (x + WO_PHASES < stack.area.x2)
                 assert_int_equal(wo_stack_at(&stack, x + WO_PHASES, y), at + 1);
         }
@@ -87,7 +87,7 @@ static void packing_and_bounds(void **state)
     rng r = {3};
     const wo_rect extent = {-50, -30, 61, 44};
     const wo_rect held = {-50, -30, 40, 40}; /* sheets, less than the extent on two sides */
-    const wo_rect area = {-70, -41, 10, 13};
+    const wo_rect area = {-70, -41, -5, 13};
     const double gaps[5] = {0, 1, 0.02, 1, 0.97};
     wo_sheet sheets[5];
     for (int s = 0; s < 5; s++)
@@ -146,6 +146,42 @@ static void packing_and_bounds(void **state)
     wo_stack_destroy(&plain, &stack);
 }
 
+/* A span bounds all that a vector meets in one stretch of a ray, and every step beside it. */
+static void spans_cover_a_stretch(void **state)
+{
+    (void)state;
+    rng r = {6};
+    const wo_rect area = {0, 0, 4 * WO_BLOCK, 64};
+    static uint8_t opaque[4 * WO_BLOCK * 64];
+    wo_sheet sheet = random_sheet(area, &r, 0);
+    for (int32_t y = 0; y < 64; y++)
+        for (int32_t x = 0; x < area.x2; x++) /* steps that grow to the right, a few holes */
+            sheet.v[y * area.x2 + x] *= rng_unit(&r) < 1e-3 ? NAN : (float)x / (float)area.x2;
+    wo_stack stack;
+    assert_int_equal(wo_stack_create(&plain, &sheet, 1, opaque, area, area, &stack, NULL), WO_OK);
+    int holes = 0;
+    for (int n = 0; n < 4000; n++) {
+        const int32_t x = rng_int(&r, 1, area.x2 - WO_BLOCK - WO_CELL - 1);
+        const int32_t y = rng_int(&r, 1, area.y2 - WO_CELL - 2);
+        const wo_span span =
+            stack.spans[0][(ptrdiff_t)(y / WO_CELL) * stack.cell_columns + x / WO_CELL];
+        holes += isinf(span.step) != 0;
+        for (int lane = 0; lane < WO_LANES; lane++) {
+            const int32_t px = x + WO_PHASES * lane + rng_int(&r, 0, WO_CELL - 1);
+            const int32_t py = y + rng_int(&r, 0, WO_CELL - 1);
+            const float v = stack.v[0][wo_stack_at(&stack, px, py)];
+            assert_false(v < span.v_min || v > span.v_max);
+            for (int k = 0; k < 9; k++) {
+                const float near = stack.v[0][wo_stack_at(&stack, px + k % 3 - 1, py + k / 3 - 1)];
+                assert_true(isinf(span.step) || fabsf(v - near) <= span.step);
+            }
+        }
+    }
+    assert_in_range(holes, 1, 3999);
+    wo_sheet_destroy(&plain, &sheet);
+    wo_stack_destroy(&plain, &stack);
+}
+
 static void a_gap_once_seen_stays_seen(void **state)
 {
     (void)state;
@@ -184,7 +220,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_grid),           cmocka_unit_test(pixels_have_places_of_their_own),
         cmocka_unit_test(packing_and_bounds), cmocka_unit_test(a_gap_once_seen_stays_seen),
-        cmocka_unit_test(a_stack_of_nothing),
+        cmocka_unit_test(a_stack_of_nothing), cmocka_unit_test(spans_cover_a_stretch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
