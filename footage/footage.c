@@ -81,6 +81,8 @@ static wo_status check_options(wo_footage_options *o, wo_error *error)
 {
     WO_TRY(check_range("width", o->width, 1, WO_MAX_SIDE, error));
     WO_TRY(check_range("height", o->height, 1, WO_MAX_SIDE, error));
+    WO_TRY(check_range("overscan in pixels", o->overscan, 0,
+                       (o->width < o->height ? o->width : o->height) / 10, error));
     WO_TRY(check_range("samples", o->samples, 1, WO_FOOTAGE_SAMPLES_MAX, error));
     WO_TRY(check_range("layers", o->layers, 0, WO_FOOTAGE_LAYERS_MAX, error));
     WO_TRY(check_range("peel", o->peel, WO_FOOTAGE_PATCHES, WO_FOOTAGE_HITS, error));
@@ -106,13 +108,16 @@ static wo_status check_options(wo_footage_options *o, wo_error *error)
 
 static wo_status make_images(const wo_context *context, wo_footage *f, wo_error *error)
 {
-    const int width = f->options.width, height = f->options.height;
-    WO_TRY(wo_render_image(context, width, height, 4, &f->colour, error));
-    WO_TRY(wo_render_image(context, width, height, 1, &f->depth, error));
-    WO_TRY(wo_render_image(context, width, height, 3, &f->normal, error));
+    const int beyond = f->options.overscan;
+    const wo_rect frame = {0, 0, f->options.width, f->options.height};
+    const wo_rect area = wo_rect_grow(frame, beyond, beyond);
+    f->frame = frame;
+    WO_TRY(wo_render_image(context, area, 4, &f->colour, error));
+    WO_TRY(wo_render_image(context, area, 1, &f->depth, error));
+    WO_TRY(wo_render_image(context, area, 3, &f->normal, error));
     if (f->options.reference_spp > 0) {
-        WO_TRY(wo_render_image(context, width, height, 4, &f->reference, error));
-        WO_TRY(wo_render_image(context, width, height, 3, &f->reference_error, error));
+        WO_TRY(wo_render_image(context, frame, 4, &f->reference, error));
+        WO_TRY(wo_render_image(context, frame, 3, &f->reference_error, error));
     }
     return WO_OK;
 }

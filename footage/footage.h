@@ -55,6 +55,8 @@ typedef enum wo_footage_peel {
 typedef struct wo_footage_options {
     const char *scene;
     int width, height; /* px; 0: the scene's. One given: the other follows */
+    int overscan;      /* px that pinhole and layers show beyond the frame on all sides, so that a
+                          lens finds what the reference sees; 0..a tenth of the shorter side */
     int samples;       /* rays per pixel of pinhole and layers, 1..256; 0: 32 */
     int layers;        /* 0..8; 0: none. With 1, hits are taken whatever peel says */
     wo_footage_peel peel;
@@ -71,12 +73,14 @@ typedef struct wo_footage_options {
 /* 36 mm, the width of all sensors here. */
 #define WO_FOOTAGE_SENSOR_MM 36.0
 
-/* A finished set. Images are y up with bounds {0, 0, width, height}; what was not asked for has
-   data = NULL. Depth 0 means no surface. Normals point to the camera's side of open surfaces and
-   out of solids, in camera coordinates. */
+/* A finished set. Images are y up; the reference has the bounds {0, 0, width, height} of the frame,
+   all others as much more as the overscan. What was not asked for has data = NULL. Depth 0 means no
+   surface. Normals point to the camera's side of open surfaces and out of solids, in camera
+   coordinates. */
 typedef struct wo_footage {
     const wo_footage_scene *scene;
-    wo_footage_options options;     /* with the defaults filled in */
+    wo_footage_options options; /* with the defaults filled in */
+    wo_rect frame;
     wo_image colour, depth, normal; /* RGBA, 1, 3 */
     int layer_count;
     wo_image layer[WO_FOOTAGE_LAYERS_MAX];       /* premultiplied RGBA */
@@ -105,9 +109,10 @@ void wo_footage_destroy(const wo_context *context, wo_footage **footage);
 #define WO_FOOTAGE_REFERENCE_ERROR "reference_error.exr"
 
 /* Writes the set into an existing folder. pinhole.exr has the parts "rgba", "depth" (Z) and
-   "normal" (N.X N.Y N.Z), layers.exr "layer1", "layer1_depth" and so on, the others one part. Every
-   part carries the camera: wideopen:focalLength and wideopen:sensorWidth (mm), wideopen:fStop,
-   wideopen:focusDistance (m), wideopen:blades, wideopen:rotation, wideopen:scene, wideopen:seed. */
+   "normal" (N.X N.Y N.Z), layers.exr "layer1", "layer1_depth" and so on, the others one part. The
+   frame is the display window. Every part carries the camera: wideopen:focalLength and
+   wideopen:sensorWidth (mm), wideopen:fStop, wideopen:focusDistance (m), wideopen:blades,
+   wideopen:rotation, wideopen:scene, wideopen:seed. */
 WO_NODISCARD wo_status wo_footage_write(const wo_footage *footage, const char *folder,
                                         wo_error *error);
 

@@ -25,9 +25,9 @@ WO_NODISCARD wo_status wo_render_reference(const wo_context *context, const wo_s
 /* Batches a reference of at least spp rays is made of, and rays of one batch. */
 void wo_render_batches(int spp, int *batches, int *rays);
 
-/* A width x height image of zeroes from context's allocator. */
-WO_NODISCARD wo_status wo_render_image(const wo_context *context, int width, int height,
-                                       int components, wo_image *image, wo_error *error);
+/* An image of zeroes from context's allocator. */
+WO_NODISCARD wo_status wo_render_image(const wo_context *context, wo_rect bounds, int components,
+                                       wo_image *image, wo_error *error);
 
 /* One key for the samples of a pixel. */
 static inline uint32_t wo_pixel_key(uint64_t seed, int32_t x, int32_t y, uint32_t purpose)

@@ -145,12 +145,12 @@ static void render_row(void *user, size_t row, unsigned worker)
 {
     const task *const t = user;
     room *const r = &t->rooms[worker];
-    const int width = t->footage->options.width;
-    const int32_t y = (int32_t)row;
+    const wo_rect area = t->footage->colour.bounds;
+    const int32_t y = area.y1 + (int32_t)row;
     if (wo_progress_aborted(t->progress))
         return;
-    for (int32_t x = 0; x < width; x += GROUP) {
-        const int count = width - x < GROUP ? width - x : GROUP;
+    for (int32_t x = area.x1; x < area.x2; x += GROUP) {
+        const int count = area.x2 - x < GROUP ? area.x2 - x : GROUP;
         peel(t, r, make_rays(t, r, x, y, count));
         for (int p = 0; p < count; p++)
             store_pixel(t, r, p, x + p, y);
@@ -158,12 +158,13 @@ static void render_row(void *user, size_t row, unsigned worker)
     wo_progress_add(t->progress, 1);
 }
 
-wo_status wo_render_image(const wo_context *context, int width, int height, int components,
+wo_status wo_render_image(const wo_context *context, wo_rect bounds, int components,
                           wo_image *image, wo_error *error)
 {
-    const size_t pixels = (size_t)width * (size_t)height;
-    *image = (wo_image){.bounds = {0, 0, width, height},
-                        .row_bytes = (ptrdiff_t)width * components * (ptrdiff_t)sizeof(float),
+    const ptrdiff_t width = wo_rect_width(bounds);
+    const size_t pixels = (size_t)width * (size_t)wo_rect_height(bounds);
+    *image = (wo_image){.bounds = bounds,
+                        .row_bytes = width * components * (ptrdiff_t)sizeof(float),
                         .components = components};
     image->data = wo_new(context, error, pixels, (size_t)components * sizeof(float));
     return image->data ? WO_OK : WO_ERR_NOMEM;
@@ -182,8 +183,9 @@ static void keep_layers(const wo_context *context, task *t)
         }
         f->layer[k] = t->layer[k];
         f->layer_depth[k] = t->layer_depth[k];
-        for (int32_t y = 0; y < f->options.height; y++)
-            for (int32_t x = 0; x < f->options.width; x++)
+        const wo_rect area = f->layer[k].bounds;
+        for (int32_t y = area.y1; y < area.y2; y++)
+            for (int32_t x = area.x1; x < area.x2; x++)
                 f->layer_pixels[k] += wo_image_at(&f->layer[k], x, y)[3] > 0;
     }
 }
@@ -207,6 +209,8 @@ wo_status wo_render_pinhole(const wo_context *context, const wo_scene *scene,
     t.layers = umbra ? o->layers + UMBRA_SPARE : o->layers;
     t.hits_max = t.layers == 0 ? 1 : o->peel == WO_FOOTAGE_HITS ? t.layers : 2 * t.layers + 4;
     t.hits_max = t.hits_max < WO_PEEL_DEPTH_MAX ? t.hits_max : WO_PEEL_DEPTH_MAX;
+    const wo_rect area = footage->colour.bounds;
+    const size_t rows = (size_t)wo_rect_height(area);
     const unsigned workers = wo_workers(context);
     uint8_t *marks = NULL;
     wo_status status = WO_ERR_NOMEM;
@@ -215,16 +219,16 @@ wo_status wo_render_pinhole(const wo_context *context, const wo_scene *scene,
     if (!(t.sobol = wo_new(context, error, (size_t)o->samples, sizeof *t.sobol)))
         goto done;
     if (umbra &&
-        !(marks = wo_new(context, error, (size_t)o->width * (size_t)o->height, (size_t)t.layers)))
+        !(marks = wo_new(context, error, (size_t)wo_rect_width(area) * rows, (size_t)t.layers)))
         goto done;
     for (int k = 0; k < t.layers; k++)
-        if (wo_render_image(context, o->width, o->height, 4, &layer[k], error) != WO_OK ||
-            wo_render_image(context, o->width, o->height, 1, &layer_depth[k], error) != WO_OK)
+        if (wo_render_image(context, area, 4, &layer[k], error) != WO_OK ||
+            wo_render_image(context, area, 1, &layer_depth[k], error) != WO_OK)
             goto done;
     for (int s = 0; s < o->samples; s++)
         wo_sobol_mirrored((uint32_t)s, t.sobol[s]);
-    wo_progress_stage(progress, share, (size_t)o->height);
-    wo_run(context, render_row, &t, (size_t)o->height);
+    wo_progress_stage(progress, share, rows);
+    wo_run(context, render_row, &t, rows);
     if (wo_progress_aborted(progress)) {
         status = WO_ABORTED;
         goto done;

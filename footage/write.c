@@ -28,11 +28,12 @@ static wo_status set_camera(const wo_footage *f, wo_io_part *part, wo_error *err
 static wo_status fill_part(const wo_footage *f, const char *name, const wo_image *image,
                            const char *const *channels, wo_io_part *part, wo_error *error)
 {
-    WO_TRY(wo_io_part_init(part, name, image->bounds, image->bounds, channels, image->components,
-                           error));
+    WO_TRY(
+        wo_io_part_init(part, name, image->bounds, f->frame, channels, image->components, error));
     const size_t row = (size_t)wo_rect_width(image->bounds) * (size_t)image->components;
     for (int32_t y = 0; y < wo_rect_height(image->bounds); y++)
-        memcpy(part->pixels + (size_t)y * row, wo_image_at(image, 0, y), row * sizeof(float));
+        memcpy(part->pixels + (size_t)y * row,
+               wo_image_at(image, image->bounds.x1, image->bounds.y1 + y), row * sizeof(float));
     return set_camera(f, part, error);
 }
 

@@ -18,7 +18,7 @@
 #define WO_CONNECT_PX 1.5f
 /* Up to so many px from the pixel itself, colours are interpolated between pixels; farther out the
    blur hides the difference. */
-#define WO_SMOOTH_PX 2
+#define WO_SMOOTH_PX 4
 /* Light below this fraction is not followed further. */
 #define WO_LIGHT_MIN (1.0f / 1024)
 
@@ -28,7 +28,7 @@ typedef struct wo_march_view {
     const float *v[WO_SHEETS_MAX];
     const float *c[WO_SHEETS_MAX][4];
     bool guessed[WO_SHEETS_MAX];
-    const float *opaque;             /* 1 where the scene as given lets no light through, else 0 */
+    const float *opaque;             /* of the stack */
     ptrdiff_t run, row;              /* of the stack */
     wo_bounds bounds[WO_SHEETS_MAX]; /* of each sheet over the footprint of the tile */
     const wo_span *spans[WO_SHEETS_MAX];

@@ -27,6 +27,19 @@ typedef struct pack_job {
     wo_rect extent;
 } pack_job;
 
+/* Is the scene opaque at a pixel and at all around it? Beside a transparent pixel the interpolated
+   coverage is below 1, and what passes there is no loss. */
+static bool opaque_around(const pack_job *job, int32_t x, int32_t y)
+{
+    const wo_rect a = job->sheets[0]->area;
+    const ptrdiff_t w = wo_rect_width(a);
+    bool all = true;
+    for (int32_t ny = y > a.y1 ? y - 1 : y; ny <= y + 1 && ny < a.y2; ny++)
+        for (int32_t nx = x > a.x1 ? x - 1 : x; nx <= x + 1 && nx < a.x2; nx++)
+            all &= job->opaque[(ny - a.y1) * w + nx - a.x1];
+    return all;
+}
+
 static void pack_row(void *user, size_t index, unsigned worker)
 {
     (void)worker;
@@ -46,7 +59,7 @@ static void pack_row(void *user, size_t index, unsigned worker)
             for (int k = 0; k < 4; k++)
                 stack->c[s][k][to] = sheet->c[from + from_x][k];
             if (s == 0)
-                stack->opaque[to] = job->opaque[from + from_x];
+                stack->opaque[to] = opaque_around(job, from_x, from_y);
         }
     }
 }

@@ -42,7 +42,7 @@ typedef struct wo_stack {
     float *v[WO_SHEETS_MAX];
     float *c[WO_SHEETS_MAX][4];
     bool guessed[WO_SHEETS_MAX];
-    float *opaque; /* 1 where the scene as given is opaque, else 0 */
+    float *opaque; /* 1 where the scene as given is opaque, there and all around, else 0 */
     float *memory;
     int32_t cell_columns, cell_rows;
     wo_bounds *cells[WO_SHEETS_MAX]; /* [rows][columns] */
@@ -61,8 +61,8 @@ static inline ptrdiff_t wo_stack_at(const wo_stack *stack, int32_t x, int32_t y)
 }
 
 /* Packs the sheets that hold anything; area is grown to the grid. sheets, all of one area, must
-   cover the part of area inside extent; pixels outside repeat the nearest inside. opaque: a byte
-   for each pixel of the sheets' area. */
+   cover the part of area inside extent; pixels outside repeat the nearest inside. opaque: 0
+   or 1 for each pixel of the sheets' area. */
 WO_NODISCARD wo_status wo_stack_create(const wo_context *context, const wo_sheet *sheets,
                                        size_t count, const uint8_t *opaque, wo_rect area,
                                        wo_rect extent, wo_stack *stack, wo_error *error);

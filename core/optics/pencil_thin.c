@@ -67,7 +67,6 @@ wo_status wo_thin_pencils_create(const wo_context *context, const wo_thin_lens *
     }
     /* The two-dimensional additive recurrence of the plastic number (Roberts 2018), one random
        shift for each set (Cranley and Patterson 1976). */
-    const double g = 1.32471795724474602596;
     for (unsigned set = 0; set < p->sets; set++) {
         const double shift_s = wo_hash(2 * set + 1 + 0x9e3779b9u * seed) * 0x1p-32;
         const double shift_t = wo_hash(2 * set + 2 + 0x85ebca6bu * seed) * 0x1p-32;
@@ -75,8 +74,8 @@ wo_status wo_thin_pencils_create(const wo_context *context, const wo_thin_lens *
         for (size_t i = 0; i < n; i++) {
             double whole;
             double u[2];
-            const double s = modf(shift_s + (double)i / g, &whole);
-            const double t = modf(shift_t + (double)i / (g * g), &whole);
+            const double s = modf(shift_s + ((double)i + 0.5) / (double)n, &whole);
+            const double t = modf(shift_t + (double)i * 0.6180339887498949, &whole);
             wo_aperture_sample(&p->shape, s, t, u);
             const double bx = lens->k * u[0];
             const double by = lens->k * u[1] * stretch;

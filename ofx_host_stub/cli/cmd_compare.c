@@ -28,8 +28,9 @@ static const wo_usage usage = {
     .command = "compare",
     .synopsis = "REF OUT [--json] [--crop N] [--diff FILE]",
     .about =
-        "Says how far OUT is from REF; both are FILE[:CHANNELS] and of one size. Red, green and "
-        "blue count, alpha does not.\n"
+        "Says how far OUT is from REF; both are FILE[:CHANNELS], of one size, or OUT covers REF "
+        "and "
+        "what lies around it is not compared. Red, green and blue count, alpha does not.\n"
         "relmse: mean of (out - ref)^2 / (ref^2 + 0.01). psnr: dB, values clipped to 0..1 and put "
         "on the sRGB curve; psnr_lin: clipped only. ssim: of the luma of the former, 11 x 11 "
         "Gaussian of sigma 1.5. max_error: largest absolute difference. energy: sum of OUT over "
@@ -97,6 +98,10 @@ static int compare(const wo_args *args, wo_image ref, wo_image out)
         !wo_args_double(args, "--limit", 0.001, 1, &limit))
         return WO_EXIT_USAGE;
     const int width = wo_rect_width(ref.bounds), height = wo_rect_height(ref.bounds);
+    if (wo_rect_contains(out.bounds, ref.bounds)) {
+        out.data = wo_image_at(&out, ref.bounds.x1, ref.bounds.y1);
+        out.bounds = ref.bounds;
+    }
     if (width != wo_rect_width(out.bounds) || height != wo_rect_height(out.bounds)) {
         wo_message("sizes differ: %s is %dx%d, %s is %dx%d", args->positionals[0], width, height,
                    args->positionals[1], wo_rect_width(out.bounds), wo_rect_height(out.bounds));

@@ -24,6 +24,10 @@ static const wo_option options[] = {
      false},
     {"--reference", NULL, "SPP",
      "Lens rays for each pixel of the reference, 16..1048576; default 0: no reference.", false},
+    {"--overscan", NULL, "PX",
+     "Pixels that pinhole and layers show beyond the frame on every side, up to a tenth of its "
+     "shorter side; default 0.",
+     false},
     {"--samples", NULL, "N", "Rays for each pixel of pinhole and layers, 1..256; default 32.",
      false},
     {"--seed", NULL, "S", "Another variant of the scene; default 0.", false},
@@ -98,6 +102,7 @@ static bool read_options(const wo_args *args, wo_footage_options *o, unsigned *t
     }
     if (!wo_args_int(args, "--layers", 0, WO_FOOTAGE_LAYERS_MAX, &layers) ||
         !wo_args_int(args, "--reference", 0, 1 << 20, &o->reference_spp) ||
+        !wo_args_int(args, "--overscan", 0, 6554, &o->overscan) ||
         !wo_args_int(args, "--samples", 1, WO_FOOTAGE_SAMPLES_MAX, &o->samples) ||
         !wo_args_int(args, "--seed", 0, INT32_MAX, &seed) ||
         !wo_args_double(args, "--fstop", 0.01, 1e6, &o->f_stop) ||
@@ -173,6 +178,7 @@ static void print_set(FILE *file, const wo_footage *set, const char *folder)
         wo_json_text(&out, "folder", folder);
     wo_json_integer(&out, "width", o->width);
     wo_json_integer(&out, "height", o->height);
+    wo_json_integer(&out, "overscan", o->overscan);
     wo_json_integer(&out, "seed", (long long)o->seed);
     wo_json_number(&out, "focalLength", o->focal_mm);
     wo_json_number(&out, "sensorWidth", WO_FOOTAGE_SENSOR_MM);

@@ -176,6 +176,14 @@ expect 2 compare "$reference" "$reference" --crop -1
 expect 2 compare "$reference" "$reference" --in-space NoSuchSpace
 says NoSuchSpace
 
+expect 0 footage two-planes -o wide --size 96x64 --layers 1 --overscan 6 --no-progress
+expect 0 compare "$scene" wide/pinhole.exr --json
+value stdout max_error 0
+expect 1 compare wide/pinhole.exr "$scene"
+says "sizes differ"
+expect 1 footage two-planes -o wide --size 96x64 --overscan 7 --no-progress
+says overscan
+
 # ------------------------------------------------------------------------------------------ render
 
 # blur WANTED_CODE WORDS...

@@ -18,7 +18,8 @@ void blur_footage_setup(const wo_footage *set, int layers, int samples, wo_lens_
     for (int i = 0; i < WO_LENS_BLUR_CLIPS; i++)
         inputs[i] = (wo_image){0};
     *args = (wo_plan_args){.geometry = WO_GEOMETRY_INIT, .inputs = inputs};
-    args->geometry.format = args->geometry.extent = args->window = set->colour.bounds;
+    args->geometry.format = args->window = set->frame;
+    args->geometry.extent = set->colour.bounds;
     inputs[WO_CLIP_SOURCE] = layers > 0 ? set->layer[0] : set->colour;
     inputs[WO_CLIP_DEPTH] = layers > 0 ? set->layer_depth[0] : set->depth;
     for (int i = 1; i < layers && i < WO_LENS_BLUR_LAYERS; i++) {

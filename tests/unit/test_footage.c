@@ -38,6 +38,8 @@ static void bad_options_are_refused(void **state)
         {WO_ERR_RANGE, "height", {.scene = "lamp", .width = 8, .height = 70000}},
         {WO_ERR_RANGE, "samples", {.scene = "lamp", .samples = 257}},
         {WO_ERR_RANGE, "layers", {.scene = "lamp", .layers = 9}},
+        {WO_ERR_RANGE, "overscan", {.scene = "lamp", .width = 40, .height = 30, .overscan = 4}},
+        {WO_ERR_RANGE, "overscan", {.scene = "lamp", .overscan = -1}},
         {WO_ERR_RANGE, "layers", {.scene = "lamp", .layers = -1}},
         {WO_ERR_RANGE, "reference", {.scene = "lamp", .reference_spp = 15}},
         {WO_ERR_RANGE, "f-number", {.scene = "lamp", .f_stop = (double)NAN}},
@@ -122,6 +124,37 @@ static void threads_do_not_matter_seeds_do(void **state)
         free_set(&again);
         free_set(&other);
     }
+}
+
+/* Inside the frame the overscan changes nothing; beyond it there is more of the scene. */
+static void overscan_goes_on(void **state)
+{
+    (void)state;
+    wo_footage_options o = {.scene = "slanted-plane",
+                            .width = 64,
+                            .height = 36,
+                            .samples = 5,
+                            .layers = 2,
+                            .umbra = true,
+                            .reference_spp = 16};
+    wo_footage *tight = make_set(&o, 2);
+    o.overscan = 3;
+    wo_footage *wide = make_set(&o, 2);
+    assert_true(wo_rect_equal(wide->frame, tight->colour.bounds));
+    assert_true(wo_rect_equal(wide->colour.bounds, wo_rect_grow(wide->frame, 3, 3)));
+    assert_true(wo_rect_equal(wide->layer[1].bounds, wide->colour.bounds));
+    assert_true(same_bytes(&wide->reference, &tight->reference));
+    const size_t row = 4 * sizeof(float) * (size_t)o.width;
+    for (int32_t y = 0; y < o.height; y++) {
+        assert_memory_equal(wo_image_at(&wide->colour, 0, y), wo_image_at(&tight->colour, 0, y),
+                            row);
+        assert_memory_equal(wo_image_at(&wide->layer_depth[0], 0, y),
+                            wo_image_at(&tight->layer_depth[0], 0, y), row / 4);
+    }
+    for (int32_t y = -3; y < 0; y++)
+        assert_true(*wo_image_at(&wide->depth, -3, y) > 0);
+    free_set(&tight);
+    free_set(&wide);
 }
 
 /* Noise of what the seed leaves alone changes, the picture does not. */
@@ -353,6 +386,7 @@ int main(void)
         cmocka_unit_test(bad_options_are_refused),
         cmocka_unit_test(sizes_follow_the_scene),
         cmocka_unit_test(threads_do_not_matter_seeds_do),
+        cmocka_unit_test(overscan_goes_on),
         cmocka_unit_test(seeds_move_samples_too),
         cmocka_unit_test(progress_rises_and_aborts),
         cmocka_unit_test(failing_memory_is_survived),
