@@ -200,44 +200,63 @@ static bool exact_ray(const void *self, double h, const double u[2], double nm, 
            clip_of(lens, system, s, slope, ray->clip);
 }
 
-/* The surfaces that stop most light, over the field; the iris is not among them. */
-static void choose_clips(wo_exact_lens *lens)
+/* The surfaces outside whose clear radius a ray falls, one bit each; the iris does not count. */
+static uint64_t blocked_by(const wo_exact_lens *lens, const double s[2], const double slope[2])
 {
     const wo_system *const system = &lens->reference;
-    double worst[WO_SURFACES_MAX] = {0};
-    for (int f = 0; f <= 8; f++) {
-        double start;
-        if (!chief(lens, lens->field_max * f / 8, &start))
-            continue;
-        for (int k = 0; k < 9; k++) {
-            const double angle = k * (3.14159265358979323846 / 4);
-            const double r = k == 8 ? 0 : lens->iris;
-            const double s[2] = {r * cos(angle), r * sin(angle)};
-            const double slope[2] = {start, 0};
-            for (int side = 0; side < 2; side++) {
-                beam b = from_iris(lens, s, slope, side == 1);
-                const int count = side ? system->stop : system->count - system->stop;
-                for (int i = 0; i < count; i++) {
-                    const int at = side ? system->stop - 1 - i : system->stop + i;
-                    if (!through(system, at, at, side == 1, &b))
-                        break;
-                    const double q =
-                        (b.p[0] * b.p[0] + b.p[1] * b.p[1]) / system->surface[at].semi2;
-                    worst[at] = fmax(worst[at], q);
-                }
-            }
+    uint64_t mask = 0;
+    for (int side = 0; side < 2; side++) {
+        beam b = from_iris(lens, s, slope, side == 1);
+        const int count = side ? system->stop : system->count - system->stop;
+        for (int i = 0; i < count; i++) {
+            const int at = side ? system->stop - 1 - i : system->stop + i;
+            if (!through(system, at, at, side == 1, &b))
+                break;
+            const double r2 = b.p[0] * b.p[0] + b.p[1] * b.p[1];
+            if (at != system->stop && r2 > system->surface[at].semi2)
+                mask |= (uint64_t)1 << at;
         }
     }
-    worst[system->stop] = 0;
-    lens->clips = 0;
-    while (lens->clips < WO_MODEL_CLIPS) {
+    return mask;
+}
+
+/* Surfaces that stop light, over the field: first the one that stops most, then the one that stops
+   most of the rest. */
+static void choose_clips(wo_exact_lens *lens)
+{
+    enum { FIELDS = 12, PLACES = 60 };
+    uint64_t masks[(FIELDS + 1) * PLACES];
+    int count = 0;
+    for (int f = 0; f <= FIELDS; f++) {
+        double slope[2] = {0, 0};
+        static const double middle[2] = {0, 0};
+        beam b;
+        if (!chief(lens, lens->field_max * f / FIELDS, &slope[0]) ||
+            !land(lens, &lens->reference, middle, slope, &b))
+            continue;
+        const double x = b.p[0];
+        for (int k = 0; k < PLACES; k++) {
+            const double r = lens->iris * sqrt((k + 1.0) / PLACES);
+            const double s[2] = {r * cos(2.399963 * k), r * sin(2.399963 * k)};
+            double aimed[2] = {slope[0], 0};
+            double jacobian;
+            if (aim(lens, &lens->reference, s, x, aimed, &jacobian, &b))
+                masks[count++] = blocked_by(lens, s, aimed);
+        }
+    }
+    for (lens->clips = 0; lens->clips < WO_MODEL_CLIPS; lens->clips++) {
+        int stopped[WO_SURFACES_MAX] = {0};
         int best = 0;
-        for (int i = 1; i < system->count; i++)
-            best = worst[i] > worst[best] ? i : best;
-        if (worst[best] < 0.9)
+        for (int at = 0; at < lens->reference.count; at++) {
+            for (int i = 0; i < count; i++)
+                stopped[at] += (masks[i] >> at & 1) != 0;
+            best = stopped[at] > stopped[best] ? at : best;
+        }
+        if (stopped[best] == 0)
             return;
-        lens->clip_surface[lens->clips++] = best;
-        worst[best] = 0;
+        lens->clip_surface[lens->clips] = best;
+        for (int i = 0; i < count; i++)
+            masks[i] = masks[i] >> best & 1 ? 0 : masks[i];
     }
 }
 
