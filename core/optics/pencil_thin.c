@@ -7,14 +7,21 @@
 /* All sets together hold about this many rays, so that they stay in the cache. */
 enum { RAYS_WANTED = 1 << 16, SETS_MIN = 16, SETS_MAX = 512 };
 
-static void thin_pencil(const void *self, double x, double y, unsigned set, wo_pencil *out)
+static void thin_pencil(const void *self, double x, double y, unsigned set, int first,
+                        wo_pencil_room *room, wo_pencil *out)
 {
     (void)x;
     (void)y;
+    (void)room;
     const wo_thin_pencils *p = self;
     const size_t n = (size_t)p->count;
-    const float *rays = p->rays + 4 * n * set;
-    *out = (wo_pencil){p->count, rays, rays + n, rays + 2 * n, rays + 3 * n, NULL};
+    const float *rays = p->rays + 4 * n * set + first;
+    const int left = p->count - first;
+    *out = (wo_pencil){.count = left < WO_PENCIL_PIECE ? left : WO_PENCIL_PIECE,
+                       .ax = rays,
+                       .ay = rays + n,
+                       .bx = rays + 2 * n,
+                       .by = rays + 3 * n};
 }
 
 static double thin_reach(const void *self, double v_far, double v_near)
@@ -101,6 +108,7 @@ wo_lens wo_thin_pencils_lens(const wo_thin_pencils *pencils)
 {
     return (wo_lens){.self = pencils,
                      .sets = pencils->sets,
+                     .count = pencils->count,
                      .pencil = thin_pencil,
                      .reach = thin_reach,
                      .px_per_dioptre = pencils->lens.k * fmax(1, pencils->stretch),
