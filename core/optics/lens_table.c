@@ -138,6 +138,28 @@ static void sample_node(void *user, size_t index, unsigned worker)
     }
 }
 
+/* How far out field points get light in every wavelength. */
+static wo_status find_light(const fit_job *job, wo_error *error)
+{
+    wo_lens_table *table = job->table;
+    table->lit = 0;
+    for (bool lit = true; lit && table->lit < table->nodes; table->lit += lit) {
+        for (int line = 0; line < table->lines; line++) {
+            const sample_set *set = &job->samples[line * table->nodes + table->lit];
+            int through = 0;
+            for (int i = 0; i < set->count; i++)
+                through += clip_most(job->model, &set->ray[i]) < BEYOND_CLIP;
+            lit &= through >= CLIP_SAMPLES_MIN;
+        }
+    }
+    if (table->lit < 4)
+        return wo_fail(error, WO_ERR_UNSUPPORTED,
+                       "the lens lights only %d of %d field points: its image circle is too small",
+                       table->lit, table->nodes);
+    table->field_lit = table->field_max * (table->lit - 1) / (table->nodes - 1);
+    return WO_OK;
+}
+
 /* Copies coefficients of a lower degree into rows of the table's. */
 static void spread(const double *x, int sides, int side, int degree, int to_degree, float *out)
 {
@@ -182,11 +204,8 @@ static void fit_node(void *user, size_t index, unsigned worker)
     for (int i = 0; i < set->count; i++)
         if (clip_most(job->model, &set->ray[i]) < BEYOND_CLIP)
             used[rows++] = i;
-    if (rows < CLIP_SAMPLES_MIN) {
-        /* So dark a field point counts as black. */
-        node->clip[0][0] = 2;
+    if (rows < CLIP_SAMPLES_MIN)
         return;
-    }
     int degree = job->table->degree;
     while (degree > 1 && 4 * even_terms(degree) > 3 * rows)
         degree--;
@@ -231,15 +250,13 @@ static void add_rows(const float *from, int degree, int parity, double weight, b
         }
 }
 
-bool wo_lens_table_node(const wo_lens_table *table, int line, double h, wo_table_node *out)
+void wo_lens_table_node(const wo_lens_table *table, int line, double h, wo_table_node *out)
 {
     memset(out, 0, sizeof *out);
-    if (!(h >= 0 && h <= table->field_max * (1 + 1e-9)))
-        return false;
-    const double at = fmin(h / table->field_max, 1) * (table->nodes - 1);
+    const double at = fmin(fmax(h, 0) / table->field_max * (table->nodes - 1), table->lit - 1);
     int first = (int)at - 1;
-    if (first > table->nodes - 4)
-        first = table->nodes - 4;
+    if (first > table->lit - 4)
+        first = table->lit - 4;
     for (int k = 0; k < 4; k++) {
         double weight = 1;
         for (int m = 0; m < 4; m++)
@@ -257,7 +274,6 @@ bool wo_lens_table_node(const wo_lens_table *table, int line, double h, wo_table
         for (int c = 0; c < table->clips; c++)
             add_rows(from->clip[c], WO_TABLE_CLIP_DEGREE, 0, weight, mirror, out->clip[c]);
     }
-    return true;
 }
 
 static double unit(uint32_t *state)
@@ -309,8 +325,9 @@ static void measure(wo_lens_table *table, const trial *trials, double focal_px,
     for (int i = 0; i < VALIDATIONS; i++) {
         const trial *t = &trials[i];
         wo_table_node node;
-        if (!t->valid || !wo_lens_table_node(table, t->line, t->h, &node))
+        if (!t->valid || t->h > table->field_lit)
             continue;
+        wo_lens_table_node(table, t->line, t->h, &node);
         float s[16] = {(float)t->s};
         float y[16] = {(float)t->t};
         float out[5][16];
@@ -345,8 +362,9 @@ static wo_status fit(const wo_context *context, const wo_lens_model *model, wo_l
     table->node = wo_new(context, error, nodes, sizeof *table->node);
     if (job.samples && job.works && table->node) {
         wo_run(context, sample_node, &job, nodes);
-        status = WO_OK;
-        for (int d = 5; d <= WO_TABLE_DEGREE_MAX && !wo_aborted(context); d += 2) {
+        status = find_light(&job, error);
+        for (int d = 5; status == WO_OK && d <= WO_TABLE_DEGREE_MAX && !wo_aborted(context);
+             d += 2) {
             table->degree = d;
             wo_run(context, fit_node, &job, nodes);
             measure(table, trials, focal_px, blur_dioptres);
@@ -371,7 +389,7 @@ wo_status wo_lens_table_create(const wo_context *context, const wo_lens_model *m
     wo_status status = t && trials ? WO_OK : WO_ERR_NOMEM;
     if (status == WO_OK) {
         t->lines = lines;
-        t->clips = model->clips > 0 ? model->clips : 1; /* the first tells of black field points */
+        t->clips = model->clips;
         t->field_max = model->field_max;
         memcpy(t->nm, nm, (size_t)lines * sizeof *nm);
         trial_job job = {model, t, trials};

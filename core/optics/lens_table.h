@@ -32,6 +32,8 @@ typedef struct wo_lens_table {
     int lines, nodes, degree, clips;
     double nm[WO_LINES_MAX];
     double field_max; /* tangent of the last node */
+    int lit;          /* the first so many nodes get light, 4..nodes */
+    double field_lit; /* tangent of the last of these: the edge of the image circle */
     double rms_px;    /* error against the model in random rays, as wo_lens_table_create says */
     double worst_px;
     wo_table_node *node; /* [lines][nodes] */
@@ -47,8 +49,9 @@ WO_NODISCARD wo_status wo_lens_table_create(const wo_context *context, const wo_
                                             wo_lens_table **table, wo_error *error);
 void wo_lens_table_destroy(const wo_context *context, wo_lens_table **table);
 
-/* The polynomials at tangent h >= 0 of one line; false beyond the field. Any thread. */
-bool wo_lens_table_node(const wo_lens_table *table, int line, double h, wo_table_node *out);
+/* The polynomials at tangent h >= 0 of one line; beyond the image circle those of its edge. Any
+   thread. */
+void wo_lens_table_node(const wo_lens_table *table, int line, double h, wo_table_node *out);
 
 /* Evaluates them for count iris points (arrays with room for a multiple of 16). Blocked rays get
    weight 0. */

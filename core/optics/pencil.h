@@ -3,6 +3,7 @@
 #ifndef WO_CORE_OPTICS_PENCIL_H
 #define WO_CORE_OPTICS_PENCIL_H
 
+#include "base/simd.h"
 #include "wideopen/aperture.h"
 #include "wideopen/context.h"
 #include "wideopen/optics.h"
@@ -19,8 +20,9 @@ typedef struct wo_pencil {
 /* Room for the rays a lens makes at one time. */
 enum { WO_PENCIL_PIECE = 512 };
 typedef struct wo_pencil_room {
-    float ax[WO_PENCIL_PIECE], ay[WO_PENCIL_PIECE], bx[WO_PENCIL_PIECE], by[WO_PENCIL_PIECE];
-    float weight[3][WO_PENCIL_PIECE];
+    float ax[WO_PENCIL_PIECE + WO_LANES], ay[WO_PENCIL_PIECE + WO_LANES];
+    float bx[WO_PENCIL_PIECE + WO_LANES], by[WO_PENCIL_PIECE + WO_LANES];
+    float weight[3][WO_PENCIL_PIECE + WO_LANES];
 } wo_pencil_room;
 
 /* A lens as a renderer sees it. Const after it is made, shared by all threads. */

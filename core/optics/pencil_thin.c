@@ -2,10 +2,9 @@
 /* Copyright the WideOpen authors */
 #include "optics/pencil.h"
 
-#include <math.h>
+#include "optics/sampling.h"
 
-/* All sets together hold about this many rays, so that they stay in the cache. */
-enum { RAYS_WANTED = 1 << 16, SETS_MIN = 16, SETS_MAX = 512 };
+#include <math.h>
 
 static void thin_pencil(const void *self, double x, double y, unsigned set, int first,
                         wo_pencil_room *room, wo_pencil *out)
@@ -63,8 +62,7 @@ wo_status wo_thin_pencils_create(const wo_context *context, const wo_thin_lens *
     p->lens = *lens;
     p->stretch = stretch;
     p->count = count;
-    const int sets = RAYS_WANTED / count;
-    p->sets = (unsigned)(sets < SETS_MIN ? SETS_MIN : sets > SETS_MAX ? SETS_MAX : sets);
+    p->sets = wo_lattice_sets(count);
     wo_aperture_make(aperture, &p->shape);
     const size_t n = (size_t)count;
     p->rays = wo_new(context, error, (size_t)p->sets * n, 4 * sizeof *p->rays);
@@ -72,18 +70,11 @@ wo_status wo_thin_pencils_create(const wo_context *context, const wo_thin_lens *
         wo_thin_pencils_destroy(context, &p);
         return WO_ERR_NOMEM;
     }
-    /* The two-dimensional additive recurrence of the plastic number (Roberts 2018), one random
-       shift for each set (Cranley and Patterson 1976). */
     for (unsigned set = 0; set < p->sets; set++) {
-        const double shift_s = wo_hash(2 * set + 1 + 0x9e3779b9u * seed) * 0x1p-32;
-        const double shift_t = wo_hash(2 * set + 2 + 0x85ebca6bu * seed) * 0x1p-32;
         float *rays = p->rays + 4 * n * set;
         for (size_t i = 0; i < n; i++) {
-            double whole;
             double u[2];
-            const double s = modf(shift_s + ((double)i + 0.5) / (double)n, &whole);
-            const double t = modf(shift_t + (double)i * 0.6180339887498949, &whole);
-            wo_aperture_sample(&p->shape, s, t, u);
+            wo_lattice_point(seed, set, (double)i + 0.5, count, 0, &p->shape, u);
             const double bx = lens->k * u[0];
             const double by = lens->k * u[1] * stretch;
             rays[i] = (float)(-bx * lens->vf);
