@@ -14,7 +14,8 @@ static void thin_pencil(const void *self, double x, double y, unsigned set, wo_p
     const wo_thin_pencils *p = self;
     const size_t n = (size_t)p->count;
     const float *rays = p->rays + 4 * n * set;
-    *out = (wo_pencil){p->count, rays, rays + n, rays + 2 * n, rays + 3 * n, NULL};
+    *out = (wo_pencil){p->count,     rays,         rays + n,
+                       rays + 2 * n, rays + 3 * n, p->weights ? p->weights + n * set : NULL};
 }
 
 static double thin_reach(const void *self, double v_far, double v_near)
@@ -33,13 +34,14 @@ static double thin_connect(const void *self, double dx, double dy, double v, dou
         return 0;
     const double ux = dx / scale;
     const double uy = dy / (scale * p->stretch);
-    if (!wo_aperture_inside(&p->shape, ux, uy))
+    const double density = wo_aperture_density(&p->shape, ux, uy);
+    if (density == 0)
         return 0;
     line[2] = k * ux;
     line[3] = k * uy * p->stretch;
     line[0] = -line[2] * p->lens.vf;
     line[1] = -line[3] * p->lens.vf;
-    return 1 / (p->shape.area * scale * scale * p->stretch);
+    return density / (scale * scale * p->stretch);
 }
 
 wo_status wo_thin_pencils_create(const wo_context *context, const wo_thin_lens *lens,
@@ -61,7 +63,9 @@ wo_status wo_thin_pencils_create(const wo_context *context, const wo_thin_lens *
     wo_aperture_make(aperture, &p->shape);
     const size_t n = (size_t)count;
     p->rays = wo_new(context, error, (size_t)p->sets * n, 4 * sizeof *p->rays);
-    if (!p->rays) {
+    if (p->rays && !p->shape.even)
+        p->weights = wo_new(context, error, (size_t)p->sets * n, sizeof *p->weights);
+    if (!p->rays || (!p->shape.even && !p->weights)) {
         wo_thin_pencils_destroy(context, &p);
         return WO_ERR_NOMEM;
     }
@@ -83,6 +87,9 @@ wo_status wo_thin_pencils_create(const wo_context *context, const wo_thin_lens *
             rays[n + i] = (float)(-by * lens->vf);
             rays[2 * n + i] = (float)bx;
             rays[3 * n + i] = (float)by;
+            if (p->weights)
+                p->weights[n * set + i] =
+                    (float)(wo_aperture_weight(&p->shape, u[0], u[1]) / p->shape.light);
         }
     }
     *pencils = p;
@@ -91,8 +98,10 @@ wo_status wo_thin_pencils_create(const wo_context *context, const wo_thin_lens *
 
 void wo_thin_pencils_destroy(const wo_context *context, wo_thin_pencils **pencils)
 {
-    if (*pencils)
+    if (*pencils) {
         wo_delete(context, (*pencils)->rays);
+        wo_delete(context, (*pencils)->weights);
+    }
     wo_delete(context, *pencils);
     *pencils = NULL;
 }
