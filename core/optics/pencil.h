@@ -52,7 +52,8 @@ typedef struct wo_thin_pencils {
     double stretch;
     int count;
     unsigned sets;
-    float *rays; /* [sets][4][count] */
+    float *rays;    /* [sets][4][count] */
+    float *weights; /* [sets][count], mean 1; NULL = all 1 */
 } wo_thin_pencils;
 
 /* count >= 1 samples of the aperture in each set. seed changes the samples, not the picture. */

@@ -21,6 +21,8 @@ static void thin_pencil(const void *self, double x, double y, unsigned set, int 
                        .ay = rays + n,
                        .bx = rays + 2 * n,
                        .by = rays + 3 * n};
+    for (int k = 0; k < 3 && p->weights; k++)
+        out->weight[k] = p->weights + n * set + first;
 }
 
 static double thin_reach(const void *self, double v_far, double v_near)
@@ -39,13 +41,14 @@ static double thin_connect(const void *self, double dx, double dy, double v, dou
         return 0;
     const double ux = dx / scale;
     const double uy = dy / (scale * p->stretch);
-    if (!wo_aperture_inside(&p->shape, ux, uy))
+    const double density = wo_aperture_density(&p->shape, ux, uy);
+    if (density == 0)
         return 0;
     line[2] = k * ux;
     line[3] = k * uy * p->stretch;
     line[0] = -line[2] * p->lens.vf;
     line[1] = -line[3] * p->lens.vf;
-    return 1 / (p->shape.area * scale * scale * p->stretch);
+    return density / (scale * scale * p->stretch);
 }
 
 wo_status wo_thin_pencils_create(const wo_context *context, const wo_thin_lens *lens,
@@ -66,7 +69,9 @@ wo_status wo_thin_pencils_create(const wo_context *context, const wo_thin_lens *
     wo_aperture_make(aperture, &p->shape);
     const size_t n = (size_t)count;
     p->rays = wo_new(context, error, (size_t)p->sets * n, 4 * sizeof *p->rays);
-    if (!p->rays) {
+    if (p->rays && !p->shape.even)
+        p->weights = wo_new(context, error, (size_t)p->sets * n, sizeof *p->weights);
+    if (!p->rays || (!p->shape.even && !p->weights)) {
         wo_thin_pencils_destroy(context, &p);
         return WO_ERR_NOMEM;
     }
@@ -81,6 +86,9 @@ wo_status wo_thin_pencils_create(const wo_context *context, const wo_thin_lens *
             rays[n + i] = (float)(-by * lens->vf);
             rays[2 * n + i] = (float)bx;
             rays[3 * n + i] = (float)by;
+            if (p->weights)
+                p->weights[n * set + i] =
+                    (float)(wo_aperture_weight(&p->shape, u[0], u[1]) / p->shape.light);
         }
     }
     *pencils = p;
@@ -89,8 +97,10 @@ wo_status wo_thin_pencils_create(const wo_context *context, const wo_thin_lens *
 
 void wo_thin_pencils_destroy(const wo_context *context, wo_thin_pencils **pencils)
 {
-    if (*pencils)
+    if (*pencils) {
         wo_delete(context, (*pencils)->rays);
+        wo_delete(context, (*pencils)->weights);
+    }
     wo_delete(context, *pencils);
     *pencils = NULL;
 }

@@ -55,7 +55,7 @@ static void field_make(field *f, rng *r, int sheets, double radius)
 {
     const double k = pow(10, rng_range(r, -1, 3));
     const wo_thin_lens lens = {k, 0, 1000};
-    const wo_aperture aperture = {rng_int(r, 0, 1) * 6, 0, 11, 1};
+    const wo_aperture aperture = {.blades = rng_int(r, 0, 1) * 6, .rotation = 11, .aspect = 1};
     assert_int_equal(wo_thin_pencils_create(&plain, &lens, &aperture, 1, RAYS,
                                             (uint32_t)rng_bits(r), &f->pencils, NULL),
                      WO_OK);
