@@ -56,9 +56,8 @@ static const preset presets[WO_DIAGRAM_PRESET_COUNT] = {
         {&s_fpl53, &n_bk7, 2.9, {-23e-5, 66e-5, -42e-5}, {52e-5, -11e-5, -15e-5}},
 };
 
-static const double line_nm[WO_DIAGRAM_LINES] = {400, 410, 422, 435.83, 450, 467, 486.13, 506,
-                                                 526, 546, 566, 587.56, 610, 633, 656.27, 700};
-static const double nm_d = 587.56, nm_f = 486.13, nm_c = 656.27;
+static const double line_nm[WO_DIAGRAM_LINES] = {400, 410, 422, 435.83,  450, 467, WO_NM_F, 506,
+                                                 526, 546, 566, WO_NM_D, 610, 633, WO_NM_C, 700};
 
 static double glass_index(const glass *g, double nm)
 {
@@ -71,13 +70,13 @@ static double glass_index(const glass *g, double nm)
 
 static double dispersion(const glass *g)
 {
-    return glass_index(g, nm_f) - glass_index(g, nm_c);
+    return glass_index(g, WO_NM_F) - glass_index(g, WO_NM_C);
 }
 
 /* Change of power of a thin lens of power 1. */
 static double colour_power(const glass *g, double nm)
 {
-    const double nd = glass_index(g, nm_d);
+    const double nd = glass_index(g, WO_NM_D);
     return (glass_index(g, nm) - nd) / (nd - 1);
 }
 
@@ -87,8 +86,8 @@ static double colour_of(const preset *p, double nm)
         return 0;
     if (!p->second)
         return colour_power(p->first, nm);
-    const double v1 = (glass_index(p->first, nm_d) - 1) / dispersion(p->first);
-    const double v2 = (glass_index(p->second, nm_d) - 1) / dispersion(p->second);
+    const double v1 = (glass_index(p->first, WO_NM_D) - 1) / dispersion(p->first);
+    const double v2 = (glass_index(p->second, WO_NM_D) - 1) / dispersion(p->second);
     return (v1 * colour_power(p->first, nm) - v2 * colour_power(p->second, nm)) / (v1 - v2);
 }
 
@@ -121,7 +120,7 @@ wo_status wo_diagram_make(wo_diagram_preset type, double focal_mm, double f_numb
     diagram->lines = WO_DIAGRAM_LINES;
     for (int l = 0; l < diagram->lines; l++) {
         const double x =
-            (glass_index(&n_bk7, line_nm[l]) - glass_index(&n_bk7, nm_d)) / dispersion(&n_bk7);
+            (glass_index(&n_bk7, line_nm[l]) - glass_index(&n_bk7, WO_NM_D)) / dispersion(&n_bk7);
         const double colour = colour_of(p, line_nm[l]);
         diagram->nm[l] = line_nm[l];
         for (int i = 0; i < diagram->zones; i++) {
