@@ -85,8 +85,8 @@ wo_status wo_diagram_of_lens(const wo_prescription *lens, double f_number, doubl
     wo_system system;
     wo_first_order first;
     wo_system_make(lens, WO_NM_D, &system);
-    wo_system_first_order(&system, WO_MERIDIAN_BOTH, &first);
-    const double image = wo_system_image(&system, WO_MERIDIAN_BOTH, vf);
+    wo_system_first_order(&system, WO_MERIDIAN_Y, &first);
+    const double image = wo_system_image(&system, WO_MERIDIAN_Y, vf);
     if (!isfinite(first.efl) || !isfinite(first.ep_z) || !isfinite(image))
         return wo_fail(error, WO_ERR_UNSUPPORTED,
                        "the lens %s has no focal length, entrance pupil or image at finite places",
@@ -100,8 +100,8 @@ wo_status wo_diagram_of_lens(const wo_prescription *lens, double f_number, doubl
     diagram->zones = WO_DIAGRAM_ZONES;
     diagram->lines = lines;
     view v = {&system, system.z_last + image, first.ep_z};
-    /* Paraxial slope on the sensor's side of a ray of height 1 in the entrance pupil: by the size
-       of the image of a small object, Lagrange's invariant, from one ray close to the axis. */
+    /* Slope at the sensor of a ray of height 1 in the entrance pupil, from one close to the axis.
+     */
     double height, leaving;
     const double tiny = 1e-6;
     if (!look_out(&v, tiny, &height, &leaving) || height == 0)

@@ -63,9 +63,12 @@ typedef enum wo_diagram_preset {
 WO_NODISCARD wo_status wo_diagram_make(wo_diagram_preset preset, double focal_mm, double f_number,
                                        double residual, wo_diagram *diagram, wo_error *error);
 
-/* The diagram of a prescription, traced exactly on the axis for the wavelengths nm[lines], with the
+/* The diagram of a prescription, traced exactly from the point of the sensor on the axis out
+   through the lens, in the meridian of y, for the wavelengths nm[lines] (rising, 1..16), with the
    iris open to f_number (0: fully), focused at vf dioptres from the entrance pupil with the d
-   line's paraxial rays. */
+   line's paraxial rays. Zones are heights in the entrance pupil. WO_ERR_UNSUPPORTED for a lens
+   without a focal length, entrance pupil or image at finite places; WO_ERR_RANGE where no light
+   passes a zone. */
 WO_NODISCARD wo_status wo_diagram_of_lens(const wo_prescription *lens, double f_number, double vf,
                                           const double *nm, int lines, wo_diagram *diagram,
                                           wo_error *error);
