@@ -19,20 +19,8 @@
 
 enum { TERMS = 3 };
 
-typedef struct glass {
-    double b[3], c[3];
-} glass;
-
-/* Makers' Sellmeier coefficients, Schott and Ohara. */
-static const glass n_bk7 = {{1.03961212, 0.231792344, 1.01046945},
-                            {0.00600069867, 0.0200179144, 103.560653}};
-static const glass sf2 = {{1.40301821, 0.231767504, 0.939056586},
-                          {0.0105795466, 0.0493226978, 112.405955}};
-static const glass s_fpl53 = {{0.983532327, 0.069568814, 1.11409238},
-                              {0.00492234955, 0.0193581091, 264.275294}};
-
 typedef struct preset {
-    const glass *first, *second; /* NULL: none */
+    const char *first, *second; /* NULL: none */
     double n_ref;
     double s[TERMS], t[TERMS];
 } preset;
@@ -41,54 +29,48 @@ static const preset presets[WO_DIAGRAM_PRESET_COUNT] = {
     [WO_DIAGRAM_PERFECT] = {NULL, NULL, 1, {0}, {0}},
     /* Thorlabs biconvex N-BK7, f 50, full aperture */
     [WO_DIAGRAM_SPHERICAL] =
-        {&n_bk7, NULL, 1.9617, {9988e-5, 872e-5, 191e-5}, {185e-5, 28e-5, 15e-5}},
+        {"N-BK7", NULL, 1.9617, {9988e-5, 872e-5, 191e-5}, {185e-5, 28e-5, 15e-5}},
     /* plano-hyperbolic N-BK7: no spherical aberration at d by its shape */
-    [WO_DIAGRAM_ASPHERICAL] = {&n_bk7, NULL, 1.9617, {0}, {-250e-5, 58e-5, -10e-5}},
+    [WO_DIAGRAM_ASPHERICAL] = {"N-BK7", NULL, 1.9617, {0}, {-250e-5, 58e-5, -10e-5}},
     /* Thorlabs AC508-250-A, N-BK7 and SF2, bent until its marginal rays, too, focus short: the
        bending adds primary aberration of all colours alike */
     [WO_DIAGRAM_ACHROMAT_A] =
-        {&n_bk7, &sf2, 4.922, {112e-5, -83e-5, -10e-5}, {-110e-5, -11e-5, -1e-5}},
+        {"N-BK7", "SF2", 4.922, {112e-5, -83e-5, -10e-5}, {-110e-5, -11e-5, -1e-5}},
     /* the same as it is sold: the zone at 0.7 focuses with the paraxial rays */
     [WO_DIAGRAM_ACHROMAT_B] =
-        {&n_bk7, &sf2, 4.922, {44e-5, -83e-5, -10e-5}, {-110e-5, -11e-5, -1e-5}},
+        {"N-BK7", "SF2", 4.922, {44e-5, -83e-5, -10e-5}, {-110e-5, -11e-5, -1e-5}},
     /* colour of S-FPL53 with N-BK7, zones of the fluorite zoom of US 5,537,259 (Canon) */
     [WO_DIAGRAM_APOCHROMAT] =
-        {&s_fpl53, &n_bk7, 2.9, {-23e-5, 66e-5, -42e-5}, {52e-5, -11e-5, -15e-5}},
+        {"S-FPL53", "N-BK7", 2.9, {-23e-5, 66e-5, -42e-5}, {52e-5, -11e-5, -15e-5}},
 };
 
 static const double line_nm[WO_DIAGRAM_LINES] = {400, 410, 422, 435.83,  450, 467, WO_NM_F, 506,
                                                  526, 546, 566, WO_NM_D, 610, 633, WO_NM_C, 700};
 
-static double glass_index(const glass *g, double nm)
-{
-    const double l2 = nm * nm * 1e-6;
-    double n2 = 1;
-    for (int i = 0; i < 3; i++)
-        n2 += g->b[i] * l2 / (l2 - g->c[i]);
-    return sqrt(n2);
-}
-
-static double dispersion(const glass *g)
-{
-    return glass_index(g, WO_NM_F) - glass_index(g, WO_NM_C);
-}
-
 /* Change of power of a thin lens of power 1. */
-static double colour_power(const glass *g, double nm)
+static double colour_power(const wo_glass *g, double nm)
 {
-    const double nd = glass_index(g, WO_NM_D);
-    return (glass_index(g, nm) - nd) / (nd - 1);
+    const double nd = wo_glass_index(g, WO_NM_D, NULL);
+    return (wo_glass_index(g, nm, NULL) - nd) / (nd - 1);
+}
+
+/* 1 / Abbe number */
+static double dispersion(const wo_glass *g)
+{
+    return colour_power(g, WO_NM_F) - colour_power(g, WO_NM_C);
 }
 
 static double colour_of(const preset *p, double nm)
 {
     if (!p->first)
         return 0;
+    const wo_glass *const a = wo_glass_find(p->first);
     if (!p->second)
-        return colour_power(p->first, nm);
-    const double v1 = (glass_index(p->first, WO_NM_D) - 1) / dispersion(p->first);
-    const double v2 = (glass_index(p->second, WO_NM_D) - 1) / dispersion(p->second);
-    return (v1 * colour_power(p->first, nm) - v2 * colour_power(p->second, nm)) / (v1 - v2);
+        return colour_power(a, nm);
+    const wo_glass *const b = wo_glass_find(p->second);
+    const double va = 1 / dispersion(a);
+    const double vb = 1 / dispersion(b);
+    return (va * colour_power(a, nm) - vb * colour_power(b, nm)) / (va - vb);
 }
 
 static double even_polynomial(const double a[TERMS], double rho2)
@@ -115,12 +97,12 @@ wo_status wo_diagram_make(wo_diagram_preset type, double focal_mm, double f_numb
     const preset *const p = &presets[type];
     const double scale = residual * 1e3 / focal_mm;
     const double aperture = p->n_ref / f_number * (p->n_ref / f_number);
+    const wo_glass *const crown = wo_glass_find("N-BK7");
     const double balance = p->second ? even_polynomial(p->t, 0.5) : 0;
     diagram->zones = WO_DIAGRAM_ZONES;
     diagram->lines = WO_DIAGRAM_LINES;
     for (int l = 0; l < diagram->lines; l++) {
-        const double x =
-            (glass_index(&n_bk7, line_nm[l]) - glass_index(&n_bk7, WO_NM_D)) / dispersion(&n_bk7);
+        const double x = colour_power(crown, line_nm[l]) / dispersion(crown);
         const double colour = colour_of(p, line_nm[l]);
         diagram->nm[l] = line_nm[l];
         for (int i = 0; i < diagram->zones; i++) {

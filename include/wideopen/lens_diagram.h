@@ -56,10 +56,11 @@ typedef enum wo_diagram_preset {
 
 /* A preset for a lens of this focal length (1..1e6 mm) and f-number (0.5..1000), focused with the
    paraxial rays of the d line. Its 33 zones and 16 lines (400..700 nm) come from exact traces of
-   real lenses of the type: f * shift grows with the square of the aperture for spherical aberration
-   and does not depend on it for colour. The balance of zones is that of the type at every f-number,
-   as of lenses designed for it: stopping one lens down is another matter. residual scales all of
-   it: 1 as the type has it, 0 none, up to 10. */
+   real lenses of the type: f * shift of spherical aberration grows with the square of the aperture,
+   that of colour does not depend on it. The balance of zones, and of spherochromatism with axial
+   colour in the corrected types, is that of the type at every f-number, as of lenses designed for
+   it: stopping one lens down is another matter. residual scales all of it: 1 as the type has it, 0
+   none, up to 10. */
 WO_NODISCARD wo_status wo_diagram_make(wo_diagram_preset preset, double focal_mm, double f_number,
                                        double residual, wo_diagram *diagram, wo_error *error);
 

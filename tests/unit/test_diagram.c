@@ -261,14 +261,99 @@ static void refused(void **state)
     assert_int_equal(wo_diagram_validate(&d, &error), WO_ERR_RANGE);
 }
 
+typedef struct row {
+    double radius, thickness;
+    const char *glass;
+} row;
+
+static wo_prescription prescribe(const row *rows, int count, double semi)
+{
+    wo_prescription lens = {.name = "test", .count = count};
+    for (int i = 0; i < count; i++) {
+        wo_surface *const s = &lens.surface[i];
+        s->curvature = rows[i].radius != 0 ? 1 / rows[i].radius : 0;
+        s->thickness = rows[i].thickness;
+        s->semi_aperture = semi;
+        s->glass = rows[i].glass ? *wo_glass_find(rows[i].glass) : wo_glass_air();
+        s->stop = i == 0;
+    }
+    return lens;
+}
+
+static const row singlet[] = {{0, 3, NULL}, {50.6, 5.2, "N-BK7"}, {-50.6, 48.2, NULL}};
+static const row achromat[] = {
+    {137.09, 7.5, "N-BK7"}, {-111.69, 2, "SF2"}, {-459.2, 244.676, NULL}};
+static const double traced_nm[] = {435.83, WO_NM_F, WO_NM_D, WO_NM_C};
+
+static void trace(const wo_prescription *lens, double n, double vf, wo_diagram *d)
+{
+    wo_error error = {WO_OK, ""};
+    if (wo_diagram_of_lens(lens, n, vf, traced_nm, 4, d, &error) != WO_OK)
+        fail_msg("%s", error.text);
+}
+
+/* The presets against the lenses they stand for, in units of 1/f. */
+static void presets_are_those_lenses(void **state)
+{
+    (void)state;
+    wo_prescription lens = prescribe(singlet, 3, 12.7);
+    wo_diagram real;
+    trace(&lens, 0, 0, &real);
+    wo_diagram d = make(WO_DIAGRAM_SPHERICAL, 49.827, 1.9617, 1);
+    for (int l = 0; l < 4; l++)
+        for (int i = 0; i < 33; i++)
+            assert_near(0.049827 * real.shift[l][i],
+                        0.049827 * wo_diagram_at(&d, i / 32.0, traced_nm[l]), 60e-5);
+    lens = prescribe(achromat, 3, 25.4);
+    trace(&lens, 0, 0, &real);
+    d = make(WO_DIAGRAM_ACHROMAT_B, 250.036, 4.922, 1);
+    for (int l = 0; l < 4; l++)
+        for (int i = 0; i < 33; i++)
+            assert_near(0.250036 * real.shift[l][i],
+                        0.250036 * wo_diagram_at(&d, i / 32.0, traced_nm[l]), 32e-5);
+    /* Longitudinal aberrations in mm of a distant point, traced with the light. */
+    const double dz[] = {0.348612, 0.120974, 0.207883};
+    for (int l = 0; l < 3; l++)
+        assert_close(real.shift[l + 1][32], -dz[l] / (250.036 * (250.036 + dz[l])) * 1e3, 0.02);
+}
+
+static void traced_lens_in_focus(void **state)
+{
+    (void)state;
+    const wo_prescription lens = prescribe(achromat, 3, 25.4);
+    const double focus[] = {-0.5, 0, 0.1, 1, 2.5};
+    for (size_t i = 0; i < WO_COUNT(focus); i++) {
+        wo_diagram d, narrow;
+        trace(&lens, 0, focus[i], &d);
+        assert_near(d.shift[2][0], 0, 1e-6);
+        trace(&lens, 9.844, focus[i], &narrow);
+        for (int l = 0; l < 4; l++)
+            for (int z = 0; z < 33; z++)
+                assert_near(narrow.shift[l][z], wo_diagram_at(&d, z / 64.0, traced_nm[l]), 3e-5);
+    }
+    wo_diagram d;
+    wo_error error;
+    assert_int_equal(wo_diagram_of_lens(&lens, -1, 0, traced_nm, 4, &d, &error), WO_ERR_RANGE);
+    assert_int_equal(wo_diagram_of_lens(&lens, NAN, 0, traced_nm, 4, &d, &error), WO_ERR_RANGE);
+    assert_int_equal(wo_diagram_of_lens(&lens, 0, NAN, traced_nm, 4, &d, &error), WO_ERR_RANGE);
+    assert_int_equal(wo_diagram_of_lens(&lens, 0, 0, traced_nm, 0, &d, &error), WO_ERR_RANGE);
+    assert_int_equal(wo_diagram_of_lens(&lens, 0, 0, traced_nm, 17, &d, &error), WO_ERR_RANGE);
+    /* Focused on its own front focus, nothing reaches a sensor anywhere. */
+    assert_true(wo_diagram_of_lens(&lens, 0, 1e3 / 249.31005, traced_nm, 4, &d, &error) != WO_OK);
+    wo_prescription wide = prescribe(singlet, 3, 0);
+    assert_int_equal(wo_diagram_of_lens(&wide, 0, 0, traced_nm, 4, &d, &error), WO_ERR_RANGE);
+    assert_int_equal(wo_diagram_of_lens(&wide, 0.4, 0, traced_nm, 4, &d, &error), WO_ERR_RANGE);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(singlet_edges),       cmocka_unit_test(achromat_edges),
-        cmocka_unit_test(achromat_centre),     cmocka_unit_test(asphere_has_colour_alone),
-        cmocka_unit_test(apochromat_is_even),  cmocka_unit_test(scaling),
-        cmocka_unit_test(interpolation),       cmocka_unit_test(refused),
-        cmocka_unit_test(any_place_is_finite),
+        cmocka_unit_test(singlet_edges),        cmocka_unit_test(achromat_edges),
+        cmocka_unit_test(achromat_centre),      cmocka_unit_test(asphere_has_colour_alone),
+        cmocka_unit_test(apochromat_is_even),   cmocka_unit_test(scaling),
+        cmocka_unit_test(interpolation),        cmocka_unit_test(refused),
+        cmocka_unit_test(any_place_is_finite),  cmocka_unit_test(presets_are_those_lenses),
+        cmocka_unit_test(traced_lens_in_focus),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
