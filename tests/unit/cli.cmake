@@ -6,3 +6,11 @@ target_compile_definitions(test_cli PRIVATE _POSIX_C_SOURCE=200809L)
 target_include_directories(test_cli PRIVATE ${PROJECT_SOURCE_DIR})
 target_link_libraries(test_cli PRIVATE wo_base wo_options cmocka m)
 add_test(NAME unit.cli COMMAND test_cli)
+
+add_executable(test_pencil_map_file ${CMAKE_CURRENT_LIST_DIR}/test_pencil_map_file.c
+    ${cli}/pencil_map_file.c)
+target_compile_definitions(test_pencil_map_file PRIVATE _POSIX_C_SOURCE=200809L)
+target_include_directories(test_pencil_map_file PRIVATE
+    ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/ofx_host_stub)
+target_link_libraries(test_pencil_map_file PRIVATE wo_core wo_bridge wo_options cmocka m)
+add_test(NAME unit.pencil_map_file COMMAND test_pencil_map_file)
