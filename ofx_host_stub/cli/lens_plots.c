@@ -14,6 +14,17 @@ const char *const wo_lens_line_names[WO_LENS_LINES] = {"F 486.1 nm", "d 587.6 nm
 const wo_pen wo_lens_field_pens[WO_LENS_FIELDS] = {
     {"#1f4fd8", 0.9, NULL}, {"#128a3c", 0.9, NULL}, {"#d0241c", 0.9, NULL}};
 
+/* A diagram with the legend of the wavelengths in a row of its own. */
+static wo_plot begin_lines(wo_svg *svg, wo_box box, const char *title, wo_axis x, wo_axis y)
+{
+    wo_svg_text(svg, box.x + 12, box.y + 18, 13, WO_ANCHOR_START, true, title);
+    wo_plot_legend(svg, box.x + box.w - 16, box.y + 37, wo_lens_line_pens, wo_lens_line_names,
+                   WO_LENS_LINES);
+    box.y += 16;
+    box.h -= 16;
+    return wo_plot_begin(svg, box, NULL, x, y);
+}
+
 /* ----------------------------------------------------------------- longitudinal aberration */
 
 enum { ZONES = 101, CURVES = 2 * WO_LENS_LINES };
@@ -63,15 +74,13 @@ void wo_panel_aberration(const wo_lens_view *view, wo_svg *svg, wo_box box)
     snprintf(label, sizeof label, "Pupil height (1 = %s mm)",
              wo_plot_number(number, sizeof number, view->first[1].ep_d / 2, 2));
     const wo_axis y = {.low = 0, .high = 1, .label = label, .ticks = 5};
-    const wo_plot plot = wo_plot_begin(svg, box, "Longitudinal aberration", x, y);
+    const wo_plot plot = begin_lines(svg, box, "Longitudinal aberration", x, y);
     for (int c = 0; c < CURVES; c++) {
         wo_pen pen = wo_lens_line_pens[c % WO_LENS_LINES];
         if (c >= WO_LENS_LINES)
             pen.width = 0.7;
         wo_plot_curve(&plot, &pen, focus[c], rho, ZONES);
     }
-    wo_plot_legend(svg, box.x + box.w - 16, box.y + 42, wo_lens_line_pens, wo_lens_line_names,
-                   WO_LENS_LINES);
 }
 
 /* ------------------------------------------------------------------------------- spots */
@@ -169,9 +178,7 @@ void wo_panel_spots(const wo_lens_view *view, wo_svg *svg, wo_box box)
         extent = fmax(extent, spots[f].extent);
     }
     const wo_axis none = {.low = 0, .high = 1};
-    wo_plot_begin(svg, box, "Spot diagrams over the field", none, none);
-    wo_plot_legend(svg, box.x + box.w - 16, box.y + 42, wo_lens_line_pens, wo_lens_line_names,
-                   WO_LENS_LINES);
+    begin_lines(svg, box, "Spot diagrams over the field", none, none);
     const double cell = (box.w - 28) / WO_LENS_FIELDS, top = box.y + 52, foot = 66;
     const double height = box.h - 52 - foot - 12;
     const double scale = fmin(cell, height) * 0.46 / extent;

@@ -239,19 +239,18 @@ bool wo_lens_fan(const wo_lens_view *view, wo_meridian meridian, double field, u
     const double reach = reach_of(view, field), step = 2 * reach / (PROBES - 1);
     const unsigned wanted = flags | WO_TRACE_IRIS;
     const int last = wanted & WO_TRACE_CLIP ? view->system.count - 1 : view->system.stop;
-    bool found = false;
+    int begin = -1, end = -1;
     for (int i = 0; i < PROBES; i++) {
         const double h = -reach + step * i;
         if (probe(view, meridian, field, h, last, wanted).outcome != WO_RAY_PASSED)
             continue;
-        *low = found ? *low : h;
-        *high = h;
-        found = true;
+        begin = begin < 0 ? i : begin;
+        end = i;
     }
-    if (!found)
+    if (begin < 0)
         return false;
-    *low = edge(view, meridian, field, wanted, *low - step, *low);
-    *high = edge(view, meridian, field, wanted, *high + step, *high);
+    *low = edge(view, meridian, field, wanted, -reach + step * (begin - 1), -reach + step * begin);
+    *high = edge(view, meridian, field, wanted, -reach + step * (end + 1), -reach + step * end);
     *chief = find_chief(view, meridian, field, *low, *high);
     return true;
 }

@@ -173,7 +173,8 @@ wo_plot wo_plot_begin(wo_svg *svg, wo_box box, const char *title, wo_axis x, wo_
     wo_plot plot = {svg, {box.x + left, box.y + 30, box.w - left - 16, box.h - 30 - below}, x, y};
     sane_range(&plot.x.low, &plot.x.high);
     sane_range(&plot.y.low, &plot.y.high);
-    wo_svg_text(svg, box.x + 12, box.y + 18, 13, WO_ANCHOR_START, true, title);
+    if (title)
+        wo_svg_text(svg, box.x + 12, box.y + 18, 13, WO_ANCHOR_START, true, title);
     if (x.label)
         draw_x_axis(&plot);
     if (y.label)

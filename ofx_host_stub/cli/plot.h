@@ -40,7 +40,8 @@ typedef struct wo_plot {
     wo_axis x, y;
 } wo_plot;
 
-/* A diagram inside box with title and labels around it. The axes are set by then. */
+/* A diagram inside box with title (NULL = none) and labels around it; the frame begins 30 px below
+   the box's top. */
 wo_plot wo_plot_begin(wo_svg *svg, wo_box box, const char *title, wo_axis x, wo_axis y);
 double wo_plot_x(const wo_plot *plot, double x);
 double wo_plot_y(const wo_plot *plot, double y);
