@@ -47,12 +47,14 @@ static void place_grid(wo_bundle *bundle, int columns, int rows, span s)
 }
 
 /* Additive recurrence with the plastic number: even, without rows. */
-static void place_scattered(wo_bundle *bundle, span s)
+void wo_bundle_scatter(wo_bundle *bundle, int turn)
 {
+    const double w = bundle->x2 - bundle->x1, h = bundle->y2 - bundle->y1;
     for (int i = 0; i < bundle->count; i++) {
-        const double u = 0.5 + 0.7548776662466927 * i, v = 0.5 + 0.5698402909980532 * i;
-        bundle->px[i] = s.x1 + (s.x2 - s.x1) * (u - floor(u));
-        bundle->py[i] = s.y1 + (s.y2 - s.y1) * (v - floor(v));
+        const double u = 0.618034 * turn + 0.7548776662466927 * i;
+        const double v = 0.414214 * turn + 0.5698402909980532 * i;
+        bundle->px[i] = bundle->x1 + w * (u - floor(u));
+        bundle->py[i] = bundle->y1 + h * (v - floor(v));
     }
 }
 
@@ -131,10 +133,14 @@ bool wo_bundle_fill(const wo_lens_view *view, wo_meridian meridian, double field
     const bool grid = lattice == WO_LATTICE_GRID;
     if (!allocate(bundle, grid ? columns * rows : count))
         return false;
+    bundle->x1 = s.x1;
+    bundle->y1 = s.y1;
+    bundle->x2 = s.x2;
+    bundle->y2 = s.y2;
     if (grid)
         place_grid(bundle, columns, rows, s);
     else
-        place_scattered(bundle, s);
+        wo_bundle_scatter(bundle, 0);
     bundle->area = w * h / bundle->count;
     return true;
 }

@@ -25,7 +25,7 @@ static void draw_head(const wo_lens_view *view, wo_svg *svg, double width)
         snprintf(focus, sizeof focus, "%s m from the entrance pupil",
                  wo_plot_number(metres, sizeof metres, 1 / view->vf, 3));
     wo_svg_text(svg, 28, 30, 18, WO_ANCHOR_START, true, lens->title[0] ? lens->title : lens->name);
-    snprintf(text, sizeof text, "focal length %s   f/%s   half field %s\xC2\xB0   %s nm   focus %s",
+    snprintf(text, sizeof text, "focal length %s, f/%s, half field %s\xC2\xB0, %s nm, object at %s",
              length_text(efl, sizeof efl, view->first[1].efl),
              wo_plot_number(fno, sizeof fno, view->first[1].fno, 2),
              wo_plot_number(field, sizeof field, view->half_field, 1),
@@ -34,6 +34,33 @@ static void draw_head(const wo_lens_view *view, wo_svg *svg, double width)
     if (lens->source[0]) {
         snprintf(text, sizeof text, "Source: %s", lens->source);
         wo_svg_text(svg, width - 28, 30, 10, WO_ANCHOR_END, false, text);
+    }
+}
+
+static void draw_seidel(const wo_lens_view *view, wo_svg *svg, wo_box box)
+{
+    static const char *const names[7] = {
+        "S I, spherical aberration",   "S II, coma",      "S III, astigmatism",
+        "S IV, field curvature",       "S V, distortion", "C I, axial colour, F to C",
+        "C II, lateral colour, F to C"};
+    const double ep_d = view->first[1].ep_d;
+    if (!isfinite(ep_d) || view->half_field >= 89)
+        return;
+    wo_seidel seidel;
+    double sums[7], colour[2];
+    wo_system_seidel(&view->system, ep_d, view->half_field, &seidel);
+    wo_system_chromatic_sums(&view->lens, ep_d, view->half_field, WO_NM_F, WO_NM_C, colour);
+    for (int i = 0; i < 7; i++)
+        sums[i] = i < 5 ? seidel.s[i] : colour[i - 5];
+    double y = box.y + 18;
+    wo_svg_text(svg, box.x + 12, y, 13, WO_ANCHOR_START, true,
+                "Seidel sums, object at infinity, \xC2\xB5m");
+    for (int i = 0; i < 7; i++) {
+        char text[32];
+        y += i == 0 ? 22 : 18;
+        wo_svg_text(svg, box.x + 12, y, 11, WO_ANCHOR_START, false, names[i]);
+        wo_svg_text(svg, box.x + box.w - 16, y, 11, WO_ANCHOR_END, false,
+                    wo_plot_number(text, sizeof text, sums[i] * 1000, 2));
     }
 }
 
@@ -63,7 +90,7 @@ void wo_panel_data(const wo_lens_view *view, wo_svg *svg, wo_box box)
     wo_svg_text(svg, box.x + 12, y, 13, WO_ANCHOR_START, true, title);
     y += 6;
     for (size_t i = 0; i < WO_COUNT(rows); i++) {
-        y += 20;
+        y += 18;
         char text[48];
         double value[2];
         for (int m = 0; m < 2; m++)
@@ -76,9 +103,11 @@ void wo_panel_data(const wo_lens_view *view, wo_svg *svg, wo_box box)
                         length_text(text, sizeof text, value[0]));
     }
     char text[48];
-    wo_svg_text(svg, box.x + 12, y + 20, 11, WO_ANCHOR_START, false, "Last vertex to the sensor");
-    wo_svg_text(svg, right, y + 20, 11, WO_ANCHOR_END, false,
+    wo_svg_text(svg, box.x + 12, y + 18, 11, WO_ANCHOR_START, false, "Last vertex to the sensor");
+    wo_svg_text(svg, right, y + 18, 11, WO_ANCHOR_END, false,
                 length_text(text, sizeof text, view->image));
+    if (!view->anamorphic)
+        draw_seidel(view, svg, (wo_box){box.x, y + 34, box.w, 0});
 }
 
 static void draw_all(const wo_lens_view *view, wo_svg *svg)

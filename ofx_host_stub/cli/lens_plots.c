@@ -14,12 +14,12 @@ const char *const wo_lens_line_names[WO_LENS_LINES] = {"F 486.1 nm", "d 587.6 nm
 const wo_pen wo_lens_field_pens[WO_LENS_FIELDS] = {
     {"#1f4fd8", 0.9, NULL}, {"#128a3c", 0.9, NULL}, {"#d0241c", 0.9, NULL}};
 
-/* A diagram with the legend of the wavelengths in a row of its own. */
-static wo_plot begin_lines(wo_svg *svg, wo_box box, const char *title, wo_axis x, wo_axis y)
+/* A diagram with the legend in a row of its own. */
+static wo_plot begin_with_legend(wo_svg *svg, wo_box box, const char *title, wo_axis x, wo_axis y,
+                                 const wo_pen *pens, const char *const *names, int count)
 {
     wo_svg_text(svg, box.x + 12, box.y + 18, 13, WO_ANCHOR_START, true, title);
-    wo_plot_legend(svg, box.x + box.w - 16, box.y + 37, wo_lens_line_pens, wo_lens_line_names,
-                   WO_LENS_LINES);
+    wo_plot_legend(svg, box.x + box.w - 16, box.y + 37, pens, names, count);
     box.y += 16;
     box.h -= 16;
     return wo_plot_begin(svg, box, NULL, x, y);
@@ -68,13 +68,17 @@ void wo_panel_aberration(const wo_lens_view *view, wo_svg *svg, wo_box box)
     double focus[CURVES][ZONES], rho[ZONES];
     char label[96], number[32];
     aberration_curves(view, focus, rho);
-    wo_axis x = {.low = -1e-6, .high = 1e-6, .label = "Focus shift, mm", .ticks = 5};
+    wo_axis x = {.low = 0, .high = 0, .label = "Focus shift, mm", .ticks = 5};
     wo_axis_cover(&x, focus[0], CURVES * ZONES);
+    wo_axis_widen(&x, 1e-4);
     wo_axis_round(&x);
     snprintf(label, sizeof label, "Pupil height (1 = %s mm)",
              wo_plot_number(number, sizeof number, view->first[1].ep_d / 2, 2));
     const wo_axis y = {.low = 0, .high = 1, .label = label, .ticks = 5};
-    const wo_plot plot = begin_lines(svg, box, "Longitudinal aberration", x, y);
+    const wo_plot plot = begin_with_legend(
+        svg, box,
+        view->anamorphic ? "Longitudinal aberration (thin: in x)" : "Longitudinal aberration", x, y,
+        wo_lens_line_pens, wo_lens_line_names, WO_LENS_LINES);
     for (int c = 0; c < CURVES; c++) {
         wo_pen pen = wo_lens_line_pens[c % WO_LENS_LINES];
         if (c >= WO_LENS_LINES)
@@ -129,9 +133,9 @@ static void spot_make(const wo_lens_view *view, double field, spot *s)
     double sum[2] = {0, 0};
     *s = (spot){.rms = NAN};
     for (int l = 0; l < WO_LENS_LINES; l++) {
-        if (!wo_bundle_fill(view, WO_MERIDIAN_Y, field, WO_LATTICE_GRID, 600, &s->bundle[l]))
+        if (!wo_bundle_fill(view, view->across, field, WO_LATTICE_GRID, 900, &s->bundle[l]))
             continue;
-        wo_bundle_trace(view, &view->line[l], WO_MERIDIAN_Y, field, WO_TRACE_CLIP | WO_TRACE_IRIS,
+        wo_bundle_trace(view, &view->line[l], view->across, field, WO_TRACE_CLIP | WO_TRACE_IRIS,
                         &s->bundle[l]);
         land(view, &s->bundle[l], sum, &s->count);
     }
@@ -153,7 +157,7 @@ static void draw_spot(wo_svg *svg, const spot *s, double cx, double cy, double s
             b->px[i] = cx + b->rays.x[i] * scale;
             b->py[i] = cy - b->rays.y[i] * scale;
         }
-        wo_svg_dots(svg, wo_lens_line_pens[l].colour, 1.3, b->px, b->py, b->count);
+        wo_svg_dots(svg, wo_lens_line_pens[l].colour, 1.2, b->px, b->py, b->count);
     }
 }
 
@@ -178,7 +182,10 @@ void wo_panel_spots(const wo_lens_view *view, wo_svg *svg, wo_box box)
         extent = fmax(extent, spots[f].extent);
     }
     const wo_axis none = {.low = 0, .high = 1};
-    begin_lines(svg, box, "Spot diagrams over the field", none, none);
+    begin_with_legend(svg, box,
+                      view->across == WO_MERIDIAN_X ? "Spot diagrams over the field in x"
+                                                    : "Spot diagrams over the field",
+                      none, none, wo_lens_line_pens, wo_lens_line_names, WO_LENS_LINES);
     const double cell = (box.w - 28) / WO_LENS_FIELDS, top = box.y + 52, foot = 66;
     const double height = box.h - 52 - foot - 12;
     const double scale = fmin(cell, height) * 0.46 / extent;
@@ -208,10 +215,10 @@ enum { FIELDS = 25 };
 static double passed_area(const wo_lens_view *view, double field)
 {
     wo_bundle b;
-    if (!wo_bundle_fill(view, WO_MERIDIAN_Y, field, WO_LATTICE_GRID, 16384, &b))
+    if (!wo_bundle_fill(view, view->across, field, WO_LATTICE_GRID, 16384, &b))
         return 0;
     int passed = 0;
-    wo_bundle_trace(view, &view->system, WO_MERIDIAN_Y, field, WO_TRACE_CLIP | WO_TRACE_IRIS, &b);
+    wo_bundle_trace(view, &view->system, view->across, field, WO_TRACE_CLIP | WO_TRACE_IRIS, &b);
     for (int i = 0; i < b.count; i++)
         passed += b.rays.outcome[i] == WO_RAY_PASSED;
     const double area = passed * b.area;
@@ -236,10 +243,11 @@ void wo_panel_illumination(const wo_lens_view *view, wo_svg *svg, wo_box box)
     wo_axis y = {.low = 0, .high = 100, .label = "Relative illumination, %", .ticks = 5};
     wo_axis_cover(&y, light[0], FIELDS);
     y.high = y.high > 100.5 ? y.high * 1.02 : 100;
-    const wo_plot plot = wo_plot_begin(svg, box, "Vignetting", x, y);
+    const wo_plot plot = begin_with_legend(
+        svg, box, view->across == WO_MERIDIAN_X ? "Vignetting in x" : "Vignetting", x, y, pens,
+        names, 2);
     for (int c = 0; c < 2; c++)
         wo_plot_curve(&plot, &pens[c], field, light[c], FIELDS);
-    wo_plot_legend(svg, box.x + box.w - 16, box.y + 18, pens, names, 2);
 }
 
 /* Against the image height that a small angle's would give at the same scale. */
@@ -266,13 +274,13 @@ void wo_panel_distortion(const wo_lens_view *view, wo_svg *svg, wo_box box)
     distortion_curve(view, WO_MERIDIAN_Y, field, percent[0]);
     if (curves == 2)
         distortion_curve(view, WO_MERIDIAN_X, field, percent[1]);
-    wo_axis x = {.low = -0.01, .high = 0.01, .label = "Distortion, %", .ticks = 4};
+    wo_axis x = {.low = 0, .high = 0, .label = "Distortion, %", .ticks = 4};
     wo_axis_cover(&x, percent[0], curves * FIELDS);
+    wo_axis_widen(&x, 0.02);
     wo_axis_round(&x);
     const wo_axis y = {.low = 0, .high = view->half_field, .label = "Field, \xC2\xB0", .ticks = 5};
-    const wo_plot plot = wo_plot_begin(svg, box, "Distortion", x, y);
+    const wo_plot plot =
+        begin_with_legend(svg, box, "Distortion", x, y, pens, names, curves == 2 ? 2 : 0);
     for (int c = 0; c < curves; c++)
         wo_plot_curve(&plot, &pens[c], percent[c], field, FIELDS);
-    if (curves == 2)
-        wo_plot_legend(svg, box.x + box.w - 16, box.y + 18, pens, names, 2);
 }

@@ -32,8 +32,9 @@ static double at_h(const section *s, double h)
 static double drawn_semi(const wo_lens_view *view, wo_meridian meridian, int i)
 {
     const wo_surface *const surface = &view->lens.surface[i];
-    double semi = surface->semi_aperture;
-    for (int k = 0; surface->semi_aperture <= 0 && k < view->lens.count; k++)
+    double semi = surface->stop ? view->open_semi : surface->semi_aperture;
+    const bool limited = semi > 0;
+    for (int k = 0; !limited && k < view->lens.count; k++)
         semi = fmax(semi, view->lens.surface[k].semi_aperture);
     if (semi <= 0)
         semi = isfinite(view->first[1].ep_d) ? fmax(view->first[1].ep_d, 1) : 10;
@@ -114,9 +115,11 @@ static void draw_iris(const section *s)
 {
     static const wo_pen blade = {"#101010", 2.2, NULL};
     const int i = s->view->lens.stop;
-    const double semi = drawn_semi(s->view, s->meridian, i),
-                 x = at_z(s, s->view->system.surface[i].z);
-    const double out = semi + 0.22 * tallest(s);
+    const wo_surface *const stop = &s->view->lens.surface[i];
+    const double wide = drawn_semi(s->view, s->meridian, i);
+    const double semi = stop->semi_aperture > 0 ? stop->semi_aperture : wide;
+    const double sag = wo_lens_sag(stop, s->meridian, semi), out = wide + 0.22 * tallest(s);
+    const double x = at_z(s, s->view->system.surface[i].z + (isnan(sag) ? 0 : sag));
     for (int side = -1; side <= 1; side += 2) {
         wo_svg_line(s->svg, &blade, x, at_h(s, side * semi), x, at_h(s, side * out));
         wo_svg_line(s->svg, &blade, x - 4, at_h(s, side * semi), x + 4, at_h(s, side * semi));
@@ -218,10 +221,11 @@ static void draw_section(const wo_lens_view *view, wo_svg *svg, wo_meridian meri
     const double length = fmax(view->system.z_last, 1e-3);
     const bool image = isfinite(view->image) && view->image > 0 && view->image < 6 * length + 200;
     const double end_z = image ? wo_lens_sensor_z(view) : view->system.z_last + length;
-    double height =
-        image ? fabs(wo_lens_chief_height(view, &view->system, meridian, view->half_field)) : 0;
     const double tall = tallest(&s);
-    height = isfinite(height) ? fmax(height, tall * 0.3) : tall;
+    double height = tall * 0.3;
+    for (int f = 0; image && f < WO_LENS_FIELDS; f++)
+        height = fmax(height, fabs(wo_lens_chief_height(view, &view->system, meridian,
+                                                        wo_lens_fields[f] * view->half_field)));
     const double before = 0.16 * (end_z + 1), half = fmax(tall, height) * 1.06;
     s.scale = fmin(box.w / (before + end_z * 1.04), box.h / (2 * half));
     s.z0 = box.x + (box.w - (end_z * 1.04 - before) * s.scale) / 2;

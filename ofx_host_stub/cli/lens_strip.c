@@ -101,7 +101,7 @@ static void add_line(strip *s, const wo_bundle *b, int row, int line, double cen
     for (int step = 0; step < STEPS; step++) {
         const double shift = step_shift(s, step), z = base + shift;
         /* Exposed for a uniform disc of the size that the f-number gives, and a little. */
-        const double r = fabs(shift) / (2 * s->view->first[1].fno), least = 0.06 * s->cell;
+        const double r = fabs(shift) / (2 * s->view->first[1].fno), least = 0.1 * s->cell;
         const double gain =
             0.4 * 3.14159265 * (r * r + least * least) * px * px * b->area / s->full;
         float rgb[3];
@@ -123,10 +123,10 @@ static bool draw_row(strip *s, int row)
     const double field = wo_lens_fields[row] * s->view->half_field;
     const unsigned flags = WO_TRACE_CLIP | WO_TRACE_IRIS;
     wo_bundle b;
-    if (!wo_bundle_fill(s->view, WO_MERIDIAN_Y, field, WO_LATTICE_SCATTERED, RAYS, &b))
+    if (!wo_bundle_fill(s->view, s->view->across, field, WO_LATTICE_SCATTERED, RAYS, &b))
         return row > 0; /* off the axis nothing may get through */
     double centres[STEPS][2];
-    wo_bundle_trace(s->view, &s->view->system, WO_MERIDIAN_Y, field, flags, &b);
+    wo_bundle_trace(s->view, &s->view->system, s->view->across, field, flags, &b);
     int passed = 0;
     for (int i = 0; i < b.count; i++)
         passed += b.rays.outcome[i] == WO_RAY_PASSED;
@@ -137,7 +137,8 @@ static bool draw_row(strip *s, int row)
     for (int line = 0; line < SPECTRUM; line++) {
         wo_system system;
         wo_system_make(&s->view->lens, line_nm(line), &system);
-        wo_bundle_trace(s->view, &system, WO_MERIDIAN_Y, field, flags, &b);
+        wo_bundle_scatter(&b, line);
+        wo_bundle_trace(s->view, &system, s->view->across, field, flags, &b);
         add_line(s, &b, row, line, centres);
     }
     wo_bundle_free(&b);
@@ -191,7 +192,7 @@ wo_status wo_lens_strip_save(const wo_lens_view *view, const char *path, wo_erro
     const double disc = 0.012 * fabs(view->first[1].efl);
     s->view = view;
     s->shift = disc * view->first[1].fno;
-    s->cell = 1.5 * disc;
+    s->cell = 1.8 * disc;
     make_spectrum(s->rgb);
     bool complete = prepare(s);
     for (int row = 0; row < WO_LENS_FIELDS && complete; row++)

@@ -65,9 +65,9 @@ static double passing_area(const wo_lens_view *view, double field)
 {
     wo_bundle bundle;
     int passed = 0;
-    if (!wo_bundle_fill(view, WO_MERIDIAN_Y, field, WO_LATTICE_GRID, 1600, &bundle))
+    if (!wo_bundle_fill(view, view->across, field, WO_LATTICE_GRID, 1600, &bundle))
         return 0;
-    wo_bundle_trace(view, &view->system, WO_MERIDIAN_Y, field, WO_TRACE_CLIP | WO_TRACE_IRIS,
+    wo_bundle_trace(view, &view->system, view->across, field, WO_TRACE_CLIP | WO_TRACE_IRIS,
                     &bundle);
     for (int i = 0; i < bundle.count; i++)
         passed += bundle.rays.outcome[i] == WO_RAY_PASSED;
@@ -88,10 +88,13 @@ static double field_of(const wo_lens_view *view)
 wo_status wo_lens_view_make(const wo_prescription *lens, const wo_lens_setup *setup,
                             wo_lens_view *view, wo_error *error)
 {
-    *view = (wo_lens_view){.lens = *lens, .nm = setup->nm};
+    *view = (wo_lens_view){
+        .lens = *lens, .nm = setup->nm, .open_semi = lens->surface[lens->stop].semi_aperture};
     for (int i = 0; i < lens->count; i++)
         view->anamorphic = view->anamorphic || lens->surface[i].meridian != WO_MERIDIAN_BOTH;
     make_systems(view);
+    view->across =
+        fabs(view->first[0].efl) < 0.99 * fabs(view->first[1].efl) ? WO_MERIDIAN_X : WO_MERIDIAN_Y;
     WO_TRY(stop_down(view, setup->f_number, error));
     make_systems(view);
     view->vf = setup->focus_m > 0 ? 1 / setup->focus_m : 0;

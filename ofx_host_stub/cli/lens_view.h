@@ -19,8 +19,10 @@ typedef struct wo_lens_view {
     double f_number;         /* what is meant by it */
     double vf;               /* dioptres from the entrance pupil to the object, 0 = infinity */
     double half_field;
-    double image;    /* last vertex to the sensor: the paraxial focus at nm */
-    bool anamorphic; /* some surface is a cylinder */
+    double image;       /* last vertex to the sensor: the paraxial focus at nm */
+    double open_semi;   /* clear radius of the surface with the iris, as the prescription has it */
+    wo_meridian across; /* where the field is measured: of anamorphic lenses, the wider side */
+    bool anamorphic;    /* some surface is a cylinder */
 } wo_lens_view;
 
 extern const double wo_lens_nm[WO_LENS_LINES];
@@ -52,7 +54,8 @@ typedef struct wo_bundle {
     double *px, *py;         /* where they crossed the plane of the first vertex */
     double *stop_x, *stop_y; /* NAN: never got there */
     int count;
-    double area; /* mm^2 on that plane that each ray stands for */
+    double area;           /* mm^2 on that plane that each ray stands for */
+    double x1, y1, x2, y2; /* what they fill there */
 } wo_bundle;
 
 typedef enum wo_lattice { WO_LATTICE_GRID, WO_LATTICE_SCATTERED } wo_lattice;
@@ -64,6 +67,8 @@ bool wo_bundle_fill(const wo_lens_view *view, wo_meridian meridian, double field
 /* The same rays again from the start, traced through system; with outcomes. */
 void wo_bundle_trace(const wo_lens_view *view, const wo_system *system, wo_meridian meridian,
                      double field, unsigned flags, wo_bundle *bundle);
+/* Other scattered rays; turn is any number. */
+void wo_bundle_scatter(wo_bundle *bundle, int turn);
 void wo_bundle_free(wo_bundle *bundle);
 
 /* One ray in the plane of the meridian, at height h on the first vertex plane. */

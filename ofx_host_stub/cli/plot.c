@@ -114,9 +114,20 @@ void wo_axis_round(wo_axis *axis)
         axis->high = 1;
     }
     sane_range(&axis->low, &axis->high);
-    wo_ticks_make(axis->low, axis->high, wanted_ticks(axis), &ticks);
-    axis->low = floor(axis->low / ticks.step + 1e-6) * ticks.step;
-    axis->high = ceil(axis->high / ticks.step - 1e-6) * ticks.step;
+    for (int i = 0; i < 4; i++) { /* a wider range may have coarser ticks */
+        wo_ticks_make(axis->low, axis->high, wanted_ticks(axis), &ticks);
+        axis->low = floor(axis->low / ticks.step + 1e-6) * ticks.step;
+        axis->high = ceil(axis->high / ticks.step - 1e-6) * ticks.step;
+    }
+}
+
+void wo_axis_widen(wo_axis *axis, double least)
+{
+    const double missing = least - (axis->high - axis->low);
+    if (axis->low <= axis->high && missing > 0) {
+        axis->low -= missing / 2;
+        axis->high += missing / 2;
+    }
 }
 
 static double along(const wo_axis *axis, double value)
@@ -210,7 +221,7 @@ static double text_width(const char *text, double size)
     int characters = 0;
     for (; *text; text++)
         characters += ((unsigned char)*text & 0xC0) != 0x80;
-    return characters * size * 0.56;
+    return characters * size * 0.53;
 }
 
 void wo_plot_legend(wo_svg *svg, double x, double y, const wo_pen *pens, const char *const *names,

@@ -33,6 +33,8 @@ typedef struct wo_axis {
    on ticks. An axis with low > high is empty. */
 void wo_axis_cover(wo_axis *axis, const double *values, int count);
 void wo_axis_round(wo_axis *axis);
+/* At least so long, about the same middle. */
+void wo_axis_widen(wo_axis *axis, double least);
 
 typedef struct wo_plot {
     wo_svg *svg;
