@@ -6,3 +6,5 @@ foreach(name IN ITEMS thin_lens aperture depth sheet sheet_edges stack march hig
     add_test(NAME unit.${name} COMMAND test_${name})
     set_tests_properties(unit.${name} PROPERTIES TIMEOUT 300)
 endforeach()
+target_compile_definitions(test_prescription PRIVATE
+    WO_LENS_PAGE="${PROJECT_SOURCE_DIR}/core/optics/lens_format.md")

@@ -95,6 +95,7 @@ static void designs_focus(void **state)
         /* The focal length said agrees with the computed one, and the image lies where said. */
         if (lens.focal_mm > 0)
             assert_close(lens.focal_mm, focal, 0.03);
+        assert_near(lens.surface[lens.count - 1].thickness, back, 0.03 * fabs(focal));
     }
     for (size_t i = 0; i < WO_COUNT(designs); i++)
         assert_string_equal(wo_lens_name_at(i), designs[i].name);
@@ -222,6 +223,27 @@ static void every_word_of_the_format(void **state)
     assert_true(s[6].thickness == 40.25);
     wo_error error = {WO_OK, ""};
     assert_null(round_trip(&lens, &error));
+}
+
+/* The example of the page is one of the designs. */
+static void example_of_the_page(void **state)
+{
+    (void)state;
+    static char page[LENS_TEXT_SIZE];
+    FILE *const file = fopen(WO_LENS_PAGE, "rb");
+    assert_non_null(file);
+    page[fread(page, 1, sizeof page - 1, file)] = '\0';
+    fclose(file);
+    char *const from = strstr(page, "```\n");
+    assert_non_null(from);
+    char *const to = strstr(from + 4, "```");
+    assert_non_null(to);
+    *to = '\0';
+    const wo_prescription lens = parse_as(from + 4, "page");
+    const wo_prescription design = builtin(lens.name);
+    const char *const wrong = difference(&lens, &design);
+    if (wrong)
+        fail_msg("%s differs", wrong);
 }
 
 static void names_from_files(void **state)
@@ -523,6 +545,7 @@ int main(void)
         cmocka_unit_test(radii_are_printed_as_given),
         cmocka_unit_test(unknown_names),
         cmocka_unit_test(every_word_of_the_format),
+        cmocka_unit_test(example_of_the_page),
         cmocka_unit_test(names_from_files),
         cmocka_unit_test(pbrt_files),
         cmocka_unit_test(errors_name_the_line),
