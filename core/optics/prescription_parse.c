@@ -353,11 +353,11 @@ wo_status wo_prescription_parse(const char *text, size_t bytes, const char *name
                                 wo_prescription *lens, wo_error *error)
 {
     /* Long paths must leave room for the message. */
-    enum { NAME_MAX = 80 };
+    enum { FILE_MAX = 80 };
     const char *file = name && *name ? name : "lens";
-    if (strlen(file) > NAME_MAX)
+    if (strlen(file) > FILE_MAX)
         file = base_of(file);
-    char cut[NAME_MAX + 1];
+    char cut[FILE_MAX + 1];
     snprintf(cut, sizeof cut, "%s", file);
     memset(lens, 0, sizeof *lens);
     if (bytes > BYTES_MAX)

@@ -1,9 +1,11 @@
 # Unit tests of core/optics and core/defocus.
 foreach(name IN ITEMS
-        thin_lens aperture aperture_shapes aperture_kernel depth sheet sheet_edges stack march highlights diagram
-        pencil_map)
+        thin_lens aperture aperture_shapes aperture_kernel depth sheet sheet_edges stack march
+        highlights diagram pencil_map glass prescription prescription_fuzz)
     add_executable(test_${name} ${CMAKE_CURRENT_LIST_DIR}/test_${name}.c)
     target_link_libraries(test_${name} PRIVATE wo_test_scenes)
     add_test(NAME unit.${name} COMMAND test_${name})
     set_tests_properties(unit.${name} PROPERTIES TIMEOUT 300)
 endforeach()
+target_compile_definitions(test_prescription PRIVATE
+    WO_LENS_PAGE="${PROJECT_SOURCE_DIR}/core/optics/lens_format.md")
