@@ -4,6 +4,7 @@
 
 #include "defocus/lens_rays.h"
 #include "effects/lens_blur_plan.h"
+#include "optics/lens_choice.h"
 
 #include <math.h>
 
@@ -63,6 +64,7 @@ wo_status wo_lens_blur_prepare(const wo_lens_blur_params *params, const wo_geome
             radius, fmax(at_infinity, fmax(wo_thin_lens_coc(&setup->lens, 1 / params->depth_near),
                                            wo_thin_lens_coc(&setup->lens, 1 / params->depth_far))));
     setup->radius = radius;
+    setup->reach = params->lens == WO_LENS_THIN ? radius : 1.25 * radius + 0.02 * width;
     setup->v_max = radius / setup->lens.k;
     setup->v_min = -setup->v_max;
     if (setup->has_depth && radius >= WO_SHARP_PX) {
@@ -95,7 +97,7 @@ wo_lens_blur_areas wo_lens_blur_plan_areas(const wo_lens_blur_setup *setup,
     window = wo_rect_intersect(window, known);
     if (wo_rect_empty(window))
         return areas;
-    const double reach = setup->radius * fmax(1, geometry->pixel_stretch);
+    const double reach = setup->reach * fmax(1, geometry->pixel_stretch);
     const int32_t margin = (int32_t)ceil(reach) + WO_RAYS_MARGIN;
     const wo_rect tiles = on_grid(window, WO_TILE_WIDTH, WO_TILE_HEIGHT);
     areas.stack = wo_stack_grid(wo_rect_grow(tiles, margin, margin));
@@ -133,7 +135,8 @@ static int identity(const void *params, const wo_geometry *geometry)
     wo_lens_blur_setup setup;
     if (wo_lens_blur_prepare(p, geometry, &setup, NULL) != WO_OK)
         return -1;
-    return p->output == WO_OUTPUT_IMAGE && setup.layers == 1 && setup.radius < WO_SHARP_PX
+    return p->output == WO_OUTPUT_IMAGE && p->lens == WO_LENS_THIN && setup.layers == 1 &&
+                   setup.radius < WO_SHARP_PX
                ? WO_CLIP_SOURCE
                : -1;
 }

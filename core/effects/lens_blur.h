@@ -42,14 +42,23 @@ typedef struct wo_lens_blur_params {
     int32_t ring_count;
     double grain_amount;
     int32_t grain_seed;
+    int32_t lens;
+    int32_t lens_design;
+    int32_t lens_diagram;
+    double lens_residual;
+    int32_t lens_glass;
+    double lens_bending;
+    double lens_thickness;
+    int32_t wavelengths;
     int32_t samples;
     int32_t seed;
     double max_radius;
     int32_t output;
 } wo_lens_blur_params;
 
-enum { WO_LENS_BLUR_PARAMS = 30, WO_LENS_BLUR_GROUPS = 5 };
+enum { WO_LENS_BLUR_PARAMS = 38, WO_LENS_BLUR_GROUPS = 6 };
 extern const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS];
+extern const char *const wo_lens_blur_lens_labels[];
 extern const wo_param_group wo_lens_blur_groups[WO_LENS_BLUR_GROUPS];
 
 /* Clips by index. */
@@ -72,6 +81,7 @@ typedef struct wo_lens_blur_setup {
     bool layer_used[WO_LENS_BLUR_LAYERS];
     bool mask_used;
     double radius; /* largest circle of confusion that is drawn, px */
+    double reach;  /* px: no ray of the lens goes farther, aberrations included */
     double v_min, v_max;
     int fill_levels; /* of the continuation of hidden surfaces; 0 = no depth, nothing to continue */
 } wo_lens_blur_setup;

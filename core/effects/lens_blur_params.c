@@ -2,12 +2,14 @@
 /* Copyright the WideOpen authors */
 #include "effects/lens_blur.h"
 
+#include "optics/lens_choice.h"
+#include "spectrum/bands.h"
+
 #define FIELD(name) offsetof(wo_lens_blur_params, name)
 
 const wo_param_group wo_lens_blur_groups[WO_LENS_BLUR_GROUPS] = {
-    {"camera", "Camera", true},     {"depth", "Depth and layers", true},
-    {"aperture", "Aperture", true}, {"quality", "Quality", true},
-    {"view", "Output", true},
+    {"camera", "Camera", true}, {"depth", "Depth and layers", true}, {"aperture", "Aperture", true},
+    {"lens", "Lens", false},    {"quality", "Quality", true},        {"view", "Output", true},
 };
 
 #define DEPTH_KEY(name, key, label)   key,
@@ -21,6 +23,17 @@ static const char *const forms[] = {"iris", "star", "heart", NULL};
 static const char *const form_labels[] = {"Iris", "Star", "Heart", NULL};
 static const char *const outputs[] = {"image", "coc", "depth", "rays", NULL};
 static const char *const output_labels[] = {"Image", "Circle of confusion", "Depth", "Rays", NULL};
+
+#define ROW_KEY(name, key, label)     key,
+#define ROW_LABEL(name, key, label)   label,
+#define GLASS_KEY(key, label, name)   key,
+#define GLASS_LABEL(key, label, name) label,
+static const char *const lens_kinds[] = {WO_LENS_KIND_LIST(ROW_KEY) NULL};
+const char *const wo_lens_blur_lens_labels[] = {WO_LENS_KIND_LIST(ROW_LABEL) NULL};
+static const char *const diagrams[] = {WO_DIAGRAM_PRESET_LIST(ROW_KEY) NULL};
+static const char *const diagram_labels[] = {WO_DIAGRAM_PRESET_LIST(ROW_LABEL) NULL};
+static const char *const glasses[] = {WO_LENS_GLASS_LIST(GLASS_KEY) NULL};
+static const char *const glass_labels[] = {WO_LENS_GLASS_LIST(GLASS_LABEL) NULL};
 
 const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
     {.key = "focalLength",
@@ -376,6 +389,119 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .ui_min = 0,
      .ui_max = 1000,
      .animates = true},
+    {.key = "lens",
+     .label = "Lens",
+     .unit = "",
+     .group = "lens",
+     .help = "What makes the rays. Thin: an ideal lens. Thick: the lens maker's two spheres with "
+             "their axial colour. Singlet: the same, traced exactly. Real design: a prescription "
+             "scaled to the focal length, traced exactly or in third order. Aberration diagram: "
+             "focus by zone and wavelength.",
+     .type = WO_PARAM_CHOICE,
+     .offset = FIELD(lens),
+     .initial = {WO_LENS_THIN},
+     .min = 0,
+     .max = WO_LENS_KIND_COUNT - 1,
+     .ui_min = 0,
+     .ui_max = WO_LENS_KIND_COUNT - 1,
+     .choices = lens_kinds,
+     .choice_labels = wo_lens_blur_lens_labels},
+    {.key = "lensDesign",
+     .label = "Design",
+     .unit = "",
+     .group = "lens",
+     .help = "The prescription of a real design; wideopen lens shows them. Its own f-number is its "
+             "fastest.",
+     .type = WO_PARAM_CHOICE,
+     .offset = FIELD(lens_design),
+     .initial = {WO_LENS_DESIGN_DEFAULT},
+     .min = 0,
+     .max = WO_LENS_DESIGNS - 1,
+     .ui_min = 0,
+     .ui_max = WO_LENS_DESIGNS - 1,
+     .choices = wo_lens_names},
+    {.key = "lensDiagram",
+     .label = "Diagram",
+     .unit = "",
+     .group = "lens",
+     .help = "Longitudinal aberration of the aberration diagram: how far zones and wavelengths "
+             "focus apart.",
+     .type = WO_PARAM_CHOICE,
+     .offset = FIELD(lens_diagram),
+     .initial = {WO_DIAGRAM_SPHERICAL},
+     .min = 0,
+     .max = WO_DIAGRAM_PRESET_COUNT - 1,
+     .ui_min = 0,
+     .ui_max = WO_DIAGRAM_PRESET_COUNT - 1,
+     .choices = diagrams,
+     .choice_labels = diagram_labels},
+    {.key = "lensResidual",
+     .label = "Residual aberration",
+     .unit = "",
+     .group = "lens",
+     .help = "How much of the diagram's aberration is left: 1 as such lenses have it, 0 none.",
+     .type = WO_PARAM_DOUBLE,
+     .offset = FIELD(lens_residual),
+     .initial = {1},
+     .min = 0,
+     .max = 10,
+     .ui_min = 0,
+     .ui_max = 3,
+     .animates = true},
+    {.key = "lensGlass",
+     .label = "Glass",
+     .unit = "",
+     .group = "lens",
+     .help = "Glass of the thick lens and the singlet.",
+     .type = WO_PARAM_CHOICE,
+     .offset = FIELD(lens_glass),
+     .initial = {0},
+     .min = 0,
+     .max = (int)WO_COUNT(glasses) - 2,
+     .ui_min = 0,
+     .ui_max = (int)WO_COUNT(glasses) - 2,
+     .choices = glasses,
+     .choice_labels = glass_labels},
+    {.key = "lensBending",
+     .label = "Bending",
+     .unit = "",
+     .group = "lens",
+     .help = "Shape of the thick lens and the singlet, (r2 + r1) / (r2 - r1): 0 both sides alike, "
+             "1 flat behind, -1 flat in front, beyond that a meniscus.",
+     .type = WO_PARAM_DOUBLE,
+     .offset = FIELD(lens_bending),
+     .initial = {0},
+     .min = -10,
+     .max = 10,
+     .ui_min = -3,
+     .ui_max = 3,
+     .animates = true},
+    {.key = "lensThickness",
+     .label = "Thickness",
+     .unit = "mm",
+     .group = "lens",
+     .help = "Thickness of the thick lens and the singlet, between the vertices.",
+     .type = WO_PARAM_DOUBLE,
+     .offset = FIELD(lens_thickness),
+     .initial = {5},
+     .min = 0,
+     .max = 1e4,
+     .ui_min = 0,
+     .ui_max = 30,
+     .animates = true},
+    {.key = "wavelengths",
+     .label = "Wavelengths",
+     .unit = "",
+     .group = "lens",
+     .help =
+         "How many wavelengths stand for the spectrum where a lens parts them. 1: none are parted.",
+     .type = WO_PARAM_INT,
+     .offset = FIELD(wavelengths),
+     .initial = {8},
+     .min = 1,
+     .max = WO_BANDS_MAX,
+     .ui_min = 1,
+     .ui_max = WO_BANDS_MAX},
     {.key = "samples",
      .label = "Samples",
      .unit = "",

@@ -2,6 +2,8 @@
 /* Copyright the WideOpen authors */
 #include "effects/lens_blur_plan.h"
 
+#include "optics/lens_choice.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -13,6 +15,9 @@ double wo_seconds(void)
     struct timespec now;
     return timespec_get(&now, TIME_UTC) ? (double)now.tv_sec + 1e-9 * (double)now.tv_nsec : 0;
 }
+
+/* Tangent of the farthest field point that a table is made for: some 85 degrees. */
+#define FIELD_MAX 11.0
 
 /* Layers, then split edges, then what is hidden. */
 enum { EDGES = WO_LENS_BLUR_LAYERS, HIDDEN, SHEETS };
@@ -198,6 +203,77 @@ static wo_status check_args(const wo_plan_args *args, wo_error *error)
     return WO_OK;
 }
 
+/* Any lens but the thin one, through its table. */
+static wo_status make_table_lens(wo_plan *plan, wo_error *error)
+{
+    const wo_lens_blur_params *p = &plan->params;
+    const wo_lens_blur_setup *s = &plan->setup;
+    const wo_geometry *g = &plan->geometry;
+    const wo_rect far = wo_rect_union(g->extent, g->format);
+    wo_table_pencil_options options = {
+        .aperture = &s->aperture,
+        .focal_px = s->lens.focal_px,
+        .stretch = g->pixel_stretch,
+        .centre_x = 0.5 * (g->format.x1 + g->format.x2),
+        .centre_y = 0.5 * (g->format.y1 + g->format.y2),
+        .max_reach = s->reach,
+        .v_limit = s->v_max,
+        .count = p->samples,
+        .wavelengths = p->wavelengths,
+        .seed = (uint32_t)p->seed,
+    };
+    const double dx = fmax(far.x2 - options.centre_x, options.centre_x - far.x1);
+    const double dy = fmax(far.y2 - options.centre_y, options.centre_y - far.y1);
+    const double corner = hypot(dx, dy / g->pixel_stretch) / s->lens.focal_px;
+    wo_bands bands;
+    wo_bands_make(p->wavelengths, &bands);
+    const wo_lens_choice choice = {
+        .kind = (wo_lens_kind)p->lens,
+        .design = wo_lens_name_at((size_t)p->lens_design),
+        .diagram = (wo_diagram_preset)p->lens_diagram,
+        .residual = p->lens_residual,
+        .glass = p->lens_glass,
+        .bending = p->lens_bending,
+        .thickness_mm = p->lens_thickness,
+        .focal_mm = p->focal_length,
+        .f_number = p->f_stop,
+        .vf = s->lens.vf,
+        .half_field = fmin(fmax(corner, 1e-3), FIELD_MAX),
+        .nm = bands.nm,
+        .lines = bands.count,
+    };
+    wo_chosen_lens *chosen = wo_new(&plan->context, error, 1, sizeof *chosen);
+    if (!chosen)
+        return WO_ERR_NOMEM;
+    wo_status status = wo_lens_choose(&choice, chosen, error);
+    if (status == WO_OK) {
+        options.px_per_dioptre =
+            s->lens.k * fmax(1, g->pixel_stretch) * (p->f_stop / fmax(chosen->f_number, p->f_stop));
+        status = wo_table_pencils_create(&plan->context, &chosen->model, &options, &plan->table,
+                                         &plan->facts, error);
+    }
+    plan->f_number = chosen->f_number;
+    wo_delete(&plan->context, chosen);
+    if (status == WO_OK)
+        plan->lens = wo_table_pencils_lens(plan->table);
+    return status;
+}
+
+static wo_status make_lens(wo_plan *plan, wo_error *error)
+{
+    plan->f_number = plan->params.f_stop;
+    if (plan->params.lens != WO_LENS_THIN)
+        return make_table_lens(plan, error);
+    /* Inside the renderer vergence is counted from the focus. */
+    wo_thin_lens lens = plan->setup.lens;
+    lens.vf = 0;
+    WO_TRY(wo_thin_pencils_create(&plan->context, &lens, &plan->setup.aperture,
+                                  plan->geometry.pixel_stretch, plan->params.samples,
+                                  (uint32_t)plan->params.seed, &plan->pencils, error));
+    plan->lens = wo_thin_pencils_lens(plan->pencils);
+    return WO_OK;
+}
+
 wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params,
                                    const wo_plan_args *args, wo_plan **out, wo_error *error)
 {
@@ -218,21 +294,14 @@ wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params
     wo_status status = wo_lens_blur_prepare(&plan->params, &plan->geometry, &plan->setup, error);
     if (status != WO_OK || wo_rect_empty(plan->window))
         goto done;
-    /* Inside the renderer vergence is counted from the focus. */
-    wo_thin_lens lens = plan->setup.lens;
-    lens.vf = 0;
-    status = wo_thin_pencils_create(&plan->context, &lens, &plan->setup.aperture,
-                                    plan->geometry.pixel_stretch, plan->params.samples,
-                                    (uint32_t)plan->params.seed, &plan->pencils, error);
-    if (status != WO_OK)
+    if ((status = make_lens(plan, error)) != WO_OK)
         goto done;
-    plan->lens = wo_thin_pencils_lens(plan->pencils);
     if ((status = build_scene(plan, args, error)) != WO_OK)
         goto done;
     const double start = wo_seconds();
     status = wo_lens_rays_create(
         &plan->context, &plan->stack, &plan->lens, &plan->highlights, plan->window,
-        plan->setup.radius * fmax(1, plan->geometry.pixel_stretch), &plan->rays, error);
+        plan->setup.reach * fmax(1, plan->geometry.pixel_stretch), &plan->rays, error);
     plan->report.seconds[WO_STAGE_PLAN] = wo_seconds() - start;
 done:
     if (status != WO_OK)
@@ -250,6 +319,7 @@ void wo_lens_blur_plan_destroy(wo_plan **plan)
     wo_stack_destroy(&context, &(*plan)->stack);
     wo_highlights_destroy(&context, &(*plan)->highlights);
     wo_thin_pencils_destroy(&context, &(*plan)->pencils);
+    wo_table_pencils_destroy(&context, &(*plan)->table);
     wo_delete(&context, *plan);
     *plan = NULL;
 }
@@ -291,6 +361,19 @@ int wo_lens_blur_plan_print(const wo_plan *plan, char *buffer, size_t size)
         wo_rect_height(w));
     add(&p, "lens        %g mm f/%g, focus at %g m; blur radius %.4g px per dioptre\n",
         plan->params.focal_length, plan->params.f_stop, plan->params.focus_distance, s->lens.k);
+    if (plan->table) {
+        const wo_table_facts *f = &plan->facts;
+        add(&p,
+            "            %s, f/%.4g reached; %d wavelengths (colours part by %.2f px), aberrations "
+            "up "
+            "to %.2f px in the plane of focus\n",
+            wo_lens_blur_lens_labels[plan->params.lens], plan->f_number, f->wavelengths,
+            f->colour_px, f->aberration_px);
+        add(&p,
+            "table       degree %d, %d field points; %.4f px RMS from the exact rays; lit to %.1f "
+            "degrees\n",
+            f->degree, f->nodes, f->rms_px, atan(f->field_lit) * (180 / 3.14159265358979323846));
+    }
     add(&p, "blur        largest radius %.2f px (limit %.2f px)\n", reach, s->radius);
     add(&p,
         "layers      %d connected, %s; %d sheets after splitting edges and continuing hidden "

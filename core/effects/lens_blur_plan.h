@@ -5,6 +5,7 @@
 
 #include "defocus/lens_rays.h"
 #include "effects/lens_blur.h"
+#include "optics/pencil_table.h"
 
 /* The plan of LensBlur: the scene made ready, the lens, a class for every tile. */
 struct wo_plan {
@@ -15,7 +16,10 @@ struct wo_plan {
     wo_rect window;
     wo_image mask, source; /* borrowed */
     wo_alpha source_alpha;
-    wo_thin_pencils *pencils;
+    wo_thin_pencils *pencils; /* the one or the other */
+    wo_table_pencils *table;
+    wo_table_facts facts; /* of the table */
+    double f_number;      /* reached by the lens */
     wo_lens lens;
     wo_stack stack;
     wo_highlights highlights;

@@ -29,6 +29,10 @@ typedef enum wo_lens_kind {
     X("fluorite", "Fluorite CaF2", "CaF2")                                                         \
     X("lanthanum", "Lanthanum crown N-LAK9", "N-LAK9")
 
+/* Names of the designs that come with the library, for lists; ends with NULL. */
+enum { WO_LENS_DESIGNS = 30, WO_LENS_DESIGN_DEFAULT = 5 };
+extern const char *const wo_lens_names[];
+
 typedef struct wo_lens_choice {
     wo_lens_kind kind;
     const char *design; /* of prescription and seidel: a name for wo_lens_find */

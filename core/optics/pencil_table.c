@@ -16,14 +16,16 @@ struct wo_table_pencils {
     unsigned sets;
     int begin[WO_LINES_MAX + 1]; /* first ray of each wavelength */
     size_t stride;               /* floats of one coordinate of a set */
-    float *points;               /* [sets][2][stride]: iris points, wavelength by wavelength */
+    float *points;               /* [sets][3][stride]: iris points and their weights, wavelength by
+                                    wavelength */
     double reach_a, reach_b;     /* px, px per dioptre */
     float a_max, b_max;          /* px, px per dioptre: beyond these a ray is left out */
 };
 
 /* Rays of one wavelength, at tangent h in the direction (c, s) from the axis. */
 static void make_rays(const wo_table_pencils *p, int line, double h, double c, double s,
-                      const float *x, const float *y, int count, int to, wo_pencil_room *room)
+                      const float *x, const float *y, const float *light, int count, int to,
+                      wo_pencil_room *room)
 {
     float along[WO_PENCIL_PIECE + WO_LANES];
     float across[WO_PENCIL_PIECE + WO_LANES];
@@ -60,7 +62,7 @@ static void make_rays(const wo_table_pencils *p, int line, double h, double c, d
         ay[i] = near ? a2 : 0;
         bx[i] = near ? b1 : 0;
         by[i] = near ? b2 : 0;
-        const float w = near ? weight[i] : 0;
+        const float w = near ? weight[i] * light[i] : 0;
         weight[i] = w * r;
         room->weight[1][to + i] = w * g;
         room->weight[2][to + i] = w * b;
@@ -76,15 +78,15 @@ static void table_pencil(const void *self, double x, double y, unsigned set, int
     const double h = hypot(dx, dy);
     const double c = h > 0 ? dx / h : 1;
     const double s = h > 0 ? dy / h : 0;
-    const float *points = p->points + 2 * p->stride * set;
+    const float *points = p->points + 3 * p->stride * set;
     const int left = p->options.count - first;
     const int count = left < WO_PENCIL_PIECE ? left : WO_PENCIL_PIECE;
     for (int line = 0; line < p->table->lines; line++) {
         const int from = p->begin[line] > first ? p->begin[line] : first;
         const int to = p->begin[line + 1] < first + count ? p->begin[line + 1] : first + count;
         if (from < to)
-            make_rays(p, line, h, c, s, points + from, points + p->stride + from, to - from,
-                      from - first, room);
+            make_rays(p, line, h, c, s, points + from, points + p->stride + from,
+                      points + 2 * p->stride + from, to - from, from - first, room);
     }
     *out =
         (wo_pencil){.count = count, .ax = room->ax, .ay = room->ay, .bx = room->bx, .by = room->by};
@@ -103,8 +105,9 @@ static void make_points(wo_table_pencils *p, const wo_aperture_shape *shape)
 {
     const int lines = p->table->lines;
     for (unsigned set = 0; set < p->sets; set++) {
-        float *const x = p->points + 2 * p->stride * set;
+        float *const x = p->points + 3 * p->stride * set;
         float *const y = x + p->stride;
+        float *const light = y + p->stride;
         for (int line = 0; line < lines; line++) {
             const int begin = p->begin[line];
             const int n = p->begin[line + 1] - begin;
@@ -113,6 +116,7 @@ static void make_points(wo_table_pencils *p, const wo_aperture_shape *shape)
                 wo_lattice_point(p->options.seed, set, i + (line + 0.5) / lines, n, line, shape, u);
                 x[begin + i] = (float)u[0];
                 y[begin + i] = (float)u[1];
+                light[begin + i] = (float)(wo_aperture_weight(shape, u[0], u[1]) / shape->light);
             }
         }
     }
@@ -214,7 +218,7 @@ wo_status wo_table_pencils_create(const wo_context *context, const wo_lens_model
         p->uniform &= lines == 1;
         p->sets = wo_lattice_sets(options->count);
         p->stride = (size_t)options->count + WO_LANES;
-        p->points = wo_new(context, error, 2 * p->stride * p->sets, sizeof *p->points);
+        p->points = wo_new(context, error, 3 * p->stride * p->sets, sizeof *p->points);
         status = p->points ? WO_OK : WO_ERR_NOMEM;
     }
     if (status != WO_OK) {
@@ -223,6 +227,7 @@ wo_status wo_table_pencils_create(const wo_context *context, const wo_lens_model
     }
     wo_aperture_shape shape;
     wo_aperture_make(options->aperture, &shape);
+    p->uniform &= shape.even;
     make_points(p, &shape);
     facts->wavelengths = p->table->lines;
     facts->degree = p->table->degree;
