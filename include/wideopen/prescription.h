@@ -62,7 +62,7 @@ WO_NODISCARD wo_status wo_prescription_parse(const char *text, size_t bytes, con
    glass.h make them. Any thread. */
 WO_NODISCARD wo_status wo_prescription_validate(const wo_prescription *lens, wo_error *error);
 
-/* Writes the .lens format that gives the same prescription again, bit for bit, if it is valid.
+/* Writes the .lens format that gives the same prescription again, every number equal, if valid.
    Returns the length without the closing 0, also when size was too small for it (as snprintf).
    Notes and comments of a text that was read are not kept. Any thread. */
 size_t wo_prescription_print(const wo_prescription *lens, char *text, size_t size);
