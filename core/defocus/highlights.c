@@ -125,7 +125,8 @@ static void take_tile(void *user, size_t index, unsigned worker)
                 if (!is_highlight(job, sheet, at, &v, &peak, &reach))
                     continue;
                 const double part = cached_share(&cache, job->lens, v, (float)reach);
-                const float above = (peak - WO_HIGHLIGHT_LEVEL) / peak;
+                /* Slits that no pixel looks through: the light stays with the surface. */
+                const float above = part > 0 ? (peak - WO_HIGHLIGHT_LEVEL) / peak : 0;
                 *to = (wo_highlight){x, y, v, (float)reach, packed, {0}};
                 for (int k = 0; k < 3; k++) {
                     to->c[k] = (float)(part * above) * sheet->c[at][k];

@@ -150,40 +150,51 @@ static void store(const wo_stack *stack, const wo_march_view *view, const wo_mar
     for (int i = 0; i < WO_LANES; i++) {
         const int x = run_index + WO_PHASES * i;
         float *c = pixels->c[row][x];
-        const float weight = sums->weight[i];
-        if (weight > 0) {
-            for (int k = 0; k < 4; k++)
-                c[k] = sums->c[k][i] / weight;
-            c[3] = fminf(c[3], 1);
-        } else {
+        const float all = sums->weight[3][i];
+        if (!(all > 0))
             straight_through(view, wo_stack_at(stack, rect.x1 + x, rect.y1 + row), c);
-        }
+        for (int k = 0; k < 4 && all > 0; k++)
+            c[k] = sums->weight[k][i] > 0 ? sums->c[k][i] / sums->weight[k][i] : 0;
+        c[3] = fminf(c[3], 1);
         pixels->guessed[row][x] = sums->guessed[i];
     }
 }
 
-/* Rays between two looks whether to stop. */
-enum { PIECE = 512 };
+/* A tile at work. */
+typedef struct tile_job {
+    const wo_lens_rays *rays;
+    const wo_context *context;
+    wo_march_view view;
+    wo_march_function *kernel;
+    bool sharp;
+    wo_rect rect;
+    wo_pencil_room room;
+} tile_job;
 
-/* The whole pencil, piece by piece; false when stopped. */
-static bool trace(const wo_context *context, wo_march_function *kernel, const wo_march_view *view,
-                  int32_t x, int32_t y, int run_index, const wo_pencil *pencil, wo_march_sums *sums)
+/* The whole pencil of a vector, piece by piece; false when stopped. */
+static bool trace(tile_job *job, int32_t row, int run_index, unsigned set, wo_march_sums *sums)
 {
+    static const float zero[1] = {0};
+    const wo_lens *lens = job->rays->lens;
+    const wo_rect area = job->rays->stack->area;
+    const int32_t x = job->rect.x1 - area.x1;
+    const int32_t y = job->rect.y1 + row - area.y1;
+    const int count = job->sharp ? 1 : lens->count;
     *sums = (wo_march_sums){0};
-    for (int first = 0; first < pencil->count; first += PIECE) {
+    for (int first = 0; first < count; first += WO_PENCIL_PIECE) {
         wo_march_sums part;
-        const int left = pencil->count - first;
-        const wo_pencil piece = {
-            left < PIECE ? left : PIECE, pencil->ax + first,
-            pencil->ay + first,          pencil->bx + first,
-            pencil->by + first,          pencil->weight ? pencil->weight + first : NULL};
-        if (wo_aborted(context))
+        wo_pencil pencil = {.count = 1, .ax = zero, .ay = zero, .bx = zero, .by = zero};
+        if (!job->sharp)
+            lens->pencil(lens->self, job->rect.x1 + 0.5 * WO_TILE_WIDTH, job->rect.y1 + row + 0.5,
+                         set, first, &job->room, &pencil);
+        if (wo_aborted(job->context))
             return false;
-        kernel(view, x, y, run_index, &piece, &part);
+        job->kernel(&job->view, x, y, run_index, &pencil, &part);
         for (int i = 0; i < WO_LANES; i++) {
-            for (int k = 0; k < 4; k++)
+            for (int k = 0; k < 4; k++) {
                 sums->c[k][i] += part.c[k][i];
-            sums->weight[i] += part.weight[i];
+                sums->weight[k][i] += part.weight[k][i];
+            }
             sums->guessed[i] += part.guessed[i];
         }
         sums->steps += part.steps;
@@ -194,7 +205,6 @@ static bool trace(const wo_context *context, wo_march_function *kernel, const wo
 bool wo_lens_rays_tile(const wo_lens_rays *rays, const wo_context *context, int32_t tx, int32_t ty,
                        wo_tile_pixels *pixels, wo_report *report)
 {
-    static const float zero[1] = {0};
     const wo_ray_tile *tile = wo_lens_rays_at(rays, tx, ty);
     const wo_rect rect = tile_rect(tx, ty);
     const wo_stack *stack = rays->stack;
@@ -202,28 +212,26 @@ bool wo_lens_rays_tile(const wo_lens_rays *rays, const wo_context *context, int3
     report->tiles[tile->class]++;
     if (tile->class == WO_TILE_EMPTY)
         return true;
-    const wo_march_view view = view_of(rays, tile);
-    wo_march_function *const kernel =
-        tile->class == WO_TILE_SINGLE ? rays->kernels->single : rays->kernels->march;
+    tile_job job = {.rays = rays,
+                    .context = context,
+                    .view = view_of(rays, tile),
+                    .kernel = tile->class == WO_TILE_SINGLE ? rays->kernels->single
+                                                            : rays->kernels->march,
+                    .sharp = tile->class == WO_TILE_SHARP,
+                    .rect = rect};
+    const int count = job.sharp ? 1 : rays->lens->count;
     for (int32_t row = 0; row < WO_TILE_HEIGHT; row++) {
-        const int32_t y = rect.y1 + row;
+        const uint32_t where = (uint32_t)tx * 0x9e3779b1u + (uint32_t)(rect.y1 + row) * 0x85ebca77u;
         for (int run_index = 0; run_index < WO_PHASES; run_index++) {
-            wo_pencil pencil = {1, zero, zero, zero, zero, NULL};
-            if (tile->class != WO_TILE_SHARP) {
-                const uint32_t where = (uint32_t)tx * 0x9e3779b1u + (uint32_t)y * 0x85ebca77u;
-                const uint32_t set = wo_hash(where) + 0x3c6ef372u * (uint32_t)run_index;
-                rays->lens->pencil(rays->lens->self, rect.x1 + 0.5 * WO_TILE_WIDTH, y + 0.5,
-                                   wo_hash(set) % rays->lens->sets, &pencil);
-            }
+            const uint32_t set = wo_hash(where) + 0x3c6ef372u * (uint32_t)run_index;
             wo_march_sums sums;
-            if (!trace(context, kernel, &view, rect.x1 - stack->area.x1, y - stack->area.y1,
-                       run_index, &pencil, &sums))
+            if (!trace(&job, row, run_index, wo_hash(set) % rays->lens->sets, &sums))
                 return false;
-            store(stack, &view, &sums, rect, row, run_index, pixels);
+            store(stack, &job.view, &sums, rect, row, run_index, pixels);
             report->steps += sums.steps;
-            report->rays += (int64_t)pencil.count * WO_LANES;
+            report->rays += (int64_t)count * WO_LANES;
             for (int i = 0; i < WO_LANES; i++)
-                pixels->guessed[row][run_index + WO_PHASES * i] /= (float)pencil.count;
+                pixels->guessed[row][run_index + WO_PHASES * i] /= (float)count;
         }
     }
     if (rays->highlights && rays->highlights->count > 0) {

@@ -38,10 +38,10 @@ typedef struct wo_march_view {
 
 /* Sums over a pencil, for the pixels of a vector. */
 typedef struct wo_march_sums {
-    float c[4][WO_LANES]; /* r g b a, times weight */
-    float weight[WO_LANES];
-    float guessed[WO_LANES]; /* part of the light that came from invented surfaces */
-    int64_t steps;           /* lookups of a sheet, each for one pixel */
+    float c[4][WO_LANES];      /* r g b a, times their weights */
+    float weight[4][WO_LANES]; /* a ray's weight for alpha is the mean of its three */
+    float guessed[WO_LANES];   /* part of the light that came from invented surfaces */
+    int64_t steps;             /* lookups of a sheet, each for one pixel */
 } wo_march_sums;
 
 /* (x, y): place of the first pixel of a block relative to the stack's area, x a multiple of

@@ -399,20 +399,70 @@ WO_SIMD void catch_up(const wo_march_view *view, int32_t x, int32_t y, int run_i
     }
 }
 
+/* Sums: colours, weights, guessed light. */
+enum { SUMS = 9, WEIGHTS = 4, GUESSED = 8 };
+
+/* A ray that no light comes through. */
+WO_SIMD bool is_dark(const wo_pencil *pencil, int n)
+{
+    return pencil->weight[0] && pencil->weight[0][n] == 0 && pencil->weight[1][n] == 0 &&
+           pencil->weight[2][n] == 0;
+}
+
+WO_SIMD void add_ray(const wo_pencil *pencil, int n, const vf c[4], vf weight, vf guessed,
+                     vf sum[SUMS])
+{
+    if (!pencil->weight[0]) {
+        for (int k = 0; k < 4; k++)
+            sum[k] = v_add(sum[k], c[k]);
+        sum[WEIGHTS] = v_add(sum[WEIGHTS], weight);
+        sum[GUESSED] = v_add(sum[GUESSED], guessed);
+        return;
+    }
+    const float r = pencil->weight[0][n];
+    const float g = pencil->weight[1][n];
+    const float b = pencil->weight[2][n];
+    const vf scale[4] = {v_set(r), v_set(g), v_set(b), v_set((r + g + b) * (1.0f / 3))};
+    for (int k = 0; k < 4; k++) {
+        sum[k] = v_fma(c[k], scale[k], sum[k]);
+        sum[WEIGHTS + k] = v_fma(weight, scale[k], sum[WEIGHTS + k]);
+    }
+    sum[GUESSED] = v_fma(guessed, scale[3], sum[GUESSED]);
+}
+
+WO_SIMD void add_chunk(vf total[SUMS], vf chunk[SUMS])
+{
+    for (int k = 0; k < SUMS; k++) {
+        total[k] = v_add(total[k], chunk[k]);
+        chunk[k] = v_set(0);
+    }
+}
+
+WO_SIMD void store_sums(const wo_pencil *pencil, const vf total[SUMS], wo_march_sums *sums)
+{
+    for (int k = 0; k < 4; k++) {
+        v_store(sums->c[k], total[k]);
+        v_store(sums->weight[k], total[pencil->weight[0] ? WEIGHTS + k : WEIGHTS]);
+    }
+    v_store(sums->guessed, total[GUESSED]);
+}
+
 static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index,
                   const wo_pencil *pencil, wo_march_sums *sums)
 {
     const vf half = v_set(0.5f);
     const vf one = v_set(1);
     const vf zero = v_set(0);
-    vf total[6];
-    vf chunk[6];
-    for (int k = 0; k < 6; k++)
+    vf total[SUMS];
+    vf chunk[SUMS];
+    for (int k = 0; k < SUMS; k++)
         total[k] = chunk[k] = zero;
     travel t;
     t.steps = 0;
 
     for (int n = 0; n < pencil->count; n++) {
+        if (is_dark(pencil, n))
+            continue;
         const way w = way_of(view, pencil, n);
         const vf fall = v_set(-w.fall);
         t.r = (rays){one, {zero, zero, zero, zero}, zero};
@@ -439,22 +489,12 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
             t.r.guessed = v_add(t.r.guessed, v_mask(lost, left));
         }
         const vf weight = v_select(ends, v_sub(one, left), one);
-        const vf scale = v_set(pencil->weight ? pencil->weight[n] : 1);
-        for (int k = 0; k < 4; k++)
-            chunk[k] = v_fma(t.r.c[k], scale, chunk[k]);
-        chunk[4] = v_fma(weight, scale, chunk[4]);
-        chunk[5] = v_fma(t.r.guessed, scale, chunk[5]);
-        if (n % CHUNK == CHUNK - 1 || n == pencil->count - 1) {
-            for (int k = 0; k < 6; k++) {
-                total[k] = v_add(total[k], chunk[k]);
-                chunk[k] = zero;
-            }
-        }
+        add_ray(pencil, n, t.r.c, weight, t.r.guessed, chunk);
+        if (n % CHUNK == CHUNK - 1)
+            add_chunk(total, chunk);
     }
-    for (int k = 0; k < 4; k++)
-        v_store(sums->c[k], total[k]);
-    v_store(sums->weight, total[4]);
-    v_store(sums->guessed, total[5]);
+    add_chunk(total, chunk);
+    store_sums(pencil, total, sums);
     sums->steps = t.steps * WO_LANES;
 }
 
@@ -462,11 +502,13 @@ static void single(const wo_march_view *view, int32_t x, int32_t y, int run_inde
                    const wo_pencil *pencil, wo_march_sums *sums)
 {
     const float v_middle = 0.5f * (view->bounds[0].v_min + view->bounds[0].v_max);
-    vf total[5];
-    vf chunk[5];
-    for (int k = 0; k < 5; k++)
+    vf total[SUMS];
+    vf chunk[SUMS];
+    for (int k = 0; k < SUMS; k++)
         total[k] = chunk[k] = v_set(0);
     for (int n = 0; n < pencil->count; n++) {
+        if (is_dark(pencil, n))
+            continue;
         const line l = line_of(pencil, n);
         const int i = nearest(l.am + l.bm * v_middle);
         const float across = l.n0 + l.slope * (float)i;
@@ -486,23 +528,12 @@ static void single(const wo_march_view *view, int32_t x, int32_t y, int run_inde
             for (int k = 0; k < 4; k++)
                 c[k] = v_load(view->c[0][k] + at);
         }
-        const float w = pencil->weight ? pencil->weight[n] : 1;
-        for (int k = 0; k < 4; k++)
-            chunk[k] = v_fma(c[k], v_set(w), chunk[k]);
-        chunk[4] = v_add(chunk[4], v_set(w));
-        if (n % CHUNK == CHUNK - 1 || n == pencil->count - 1) {
-            for (int k = 0; k < 5; k++) {
-                total[k] = v_add(total[k], chunk[k]);
-                chunk[k] = v_set(0);
-            }
-        }
+        add_ray(pencil, n, c, v_set(1), view->guessed[0] ? c[3] : v_set(0), chunk);
+        if (n % CHUNK == CHUNK - 1)
+            add_chunk(total, chunk);
     }
-    for (int k = 0; k < 4; k++)
-        v_store(sums->c[k], total[k]);
-    v_store(sums->weight, total[4]);
-    v_store(sums->guessed, v_set(0));
-    if (view->guessed[0])
-        v_store(sums->guessed, total[3]);
+    add_chunk(total, chunk);
+    store_sums(pencil, total, sums);
     sums->steps = (int64_t)pencil->count * WO_LANES;
 }
 

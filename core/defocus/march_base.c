@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
-#include "defocus/simd_base.h"
+#include "base/simd_base.h"
 
 #define WO_MARCH_KERNELS wo_march_base
 #include "defocus/march.inc.h"

@@ -117,23 +117,28 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
     *sums = (wo_march_sums){0};
     for (int lane = 0; lane < WO_LANES; lane++) {
         double sum[4] = {0};
-        double weight = 0;
+        double weight[4] = {0};
         double guessed = 0;
         for (int n = 0; n < pencil->count; n++) {
             double ray[4] = {0};
             double ray_weight = 0;
             double ray_guessed = 0;
-            const double w = pencil->weight ? (double)pencil->weight[n] : 1;
+            double w[4] = {1, 1, 1, 1};
+            for (int k = 0; k < 3 && pencil->weight[0]; k++)
+                w[k] = (double)pencil->weight[k][n];
+            w[3] = (w[0] + w[1] + w[2]) / 3;
             trace(view, x + run_index + WO_PHASES * lane, y, pencil, n, ray, &ray_weight,
                   &ray_guessed, &sums->steps);
-            for (int k = 0; k < 4; k++)
-                sum[k] += w * ray[k];
-            weight += w * ray_weight;
-            guessed += w * ray_guessed;
+            for (int k = 0; k < 4; k++) {
+                sum[k] += w[k] * ray[k];
+                weight[k] += w[k] * ray_weight;
+            }
+            guessed += w[3] * ray_guessed;
         }
-        for (int k = 0; k < 4; k++)
+        for (int k = 0; k < 4; k++) {
             sums->c[k][lane] = (float)sum[k];
-        sums->weight[lane] = (float)weight;
+            sums->weight[k][lane] = (float)weight[k];
+        }
         sums->guessed[lane] = (float)guessed;
     }
 }

@@ -3,6 +3,7 @@
 #ifndef WO_CORE_DEFOCUS_STACK_H
 #define WO_CORE_DEFOCUS_STACK_H
 
+#include "base/simd.h"
 #include "defocus/sheet.h"
 
 /* The scene as the kernels read it: every sheet as five float planes over one area, edges repeated
@@ -13,7 +14,6 @@
    share a lens sample, while the pixels between them use other samples: no pattern shows, and
    every load is contiguous whatever the offset. */
 #define WO_PHASES      4
-#define WO_LANES       16
 #define WO_BLOCK       (WO_PHASES * WO_LANES) /* px of one row that four vectors cover */
 #define WO_TILE_WIDTH  WO_BLOCK
 #define WO_TILE_HEIGHT 8

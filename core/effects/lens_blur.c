@@ -11,6 +11,9 @@
    of two; beyond 2^FILL_LEVELS_MAX px they are unknown. */
 enum { FILL_LEVELS_MAX = 9 };
 
+/* Of a star without blades. */
+enum { WO_STAR_POINTS = 5 };
+
 /* px that loading, splitting and seeding look beyond a pixel, one after the other. */
 #define INPUT_MARGIN (WO_SHEET_LOAD_MARGIN + WO_SHEET_SPLIT_MARGIN + 1)
 
@@ -23,8 +26,24 @@ wo_status wo_lens_blur_prepare(const wo_lens_blur_params *params, const wo_geome
     WO_TRY(wo_thin_lens_make(params->focal_length, params->sensor_width, params->f_stop,
                              params->focus_distance, params->breathing != 0, width, &setup->lens,
                              error));
-    setup->aperture = (wo_aperture){params->blades < 3 ? 0 : params->blades, params->curvature,
-                                    params->rotation, params->aspect};
+    const bool star = params->aperture_form == WO_APERTURE_STAR;
+    setup->aperture = (wo_aperture){
+        .blades = params->blades >= 3 ? params->blades
+                  : star              ? WO_STAR_POINTS
+                                      : 0,
+        .curvature = params->curvature,
+        .rotation = params->rotation,
+        .aspect = params->aspect,
+        .form = (wo_aperture_form)params->aperture_form,
+        .opening = params->opening,
+        .obstruction = params->obstruction,
+        .apodization = params->apodization,
+        .edge = params->edge,
+        .ring_amount = params->ring_amount,
+        .ring_count = params->ring_count,
+        .grain_amount = params->grain_amount,
+        .grain_seed = (uint32_t)params->grain_seed,
+    };
     setup->reading = (wo_depth_reading){(wo_depth_mode)params->depth_mode, params->depth_scale,
                                         params->depth_near, params->depth_far};
     for (int i = 0; i < WO_LENS_BLUR_LAYERS; i++) {

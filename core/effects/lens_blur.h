@@ -33,13 +33,22 @@ typedef struct wo_lens_blur_params {
     double curvature;
     double rotation;
     double aspect;
+    int32_t aperture_form;
+    double opening;
+    double obstruction;
+    double apodization;
+    double edge;
+    double ring_amount;
+    int32_t ring_count;
+    double grain_amount;
+    int32_t grain_seed;
     int32_t samples;
     int32_t seed;
     double max_radius;
     int32_t output;
 } wo_lens_blur_params;
 
-enum { WO_LENS_BLUR_PARAMS = 21, WO_LENS_BLUR_GROUPS = 5 };
+enum { WO_LENS_BLUR_PARAMS = 30, WO_LENS_BLUR_GROUPS = 5 };
 extern const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS];
 extern const wo_param_group wo_lens_blur_groups[WO_LENS_BLUR_GROUPS];
 

@@ -3,6 +3,7 @@
 #ifndef WO_CORE_OPTICS_PENCIL_H
 #define WO_CORE_OPTICS_PENCIL_H
 
+#include "base/simd.h"
 #include "wideopen/aperture.h"
 #include "wideopen/context.h"
 #include "wideopen/optics.h"
@@ -12,17 +13,29 @@
    with a weight. Lens models make pencils; renderers consume them; neither knows the other. */
 typedef struct wo_pencil {
     int count;
-    const float *ax, *ay, *bx, *by; /* [count], borrowed from the lens */
-    const float *weight;            /* [count], NULL = all 1 */
+    const float *ax, *ay, *bx, *by; /* [count], borrowed from the lens or from a room */
+    const float *weight[3];         /* [count] for red, green and blue; all NULL = all 1 */
 } wo_pencil;
+
+/* Room for the rays a lens makes at one time. */
+enum { WO_PENCIL_PIECE = 512 };
+typedef struct wo_pencil_room {
+    float ax[WO_PENCIL_PIECE + WO_LANES], ay[WO_PENCIL_PIECE + WO_LANES];
+    float bx[WO_PENCIL_PIECE + WO_LANES], by[WO_PENCIL_PIECE + WO_LANES];
+    float weight[3][WO_PENCIL_PIECE + WO_LANES];
+} wo_pencil_room;
 
 /* A lens as a renderer sees it. Const after it is made, shared by all threads. */
 typedef struct wo_lens {
     const void *self;
     unsigned
-        sets; /* number of different pencils for one sensor point; neighbours use different ones */
-    /* Pencil number set (0..sets-1) at the sensor point (x, y), px. */
-    void (*pencil)(const void *self, double x, double y, unsigned set, wo_pencil *out);
+        sets;  /* number of different pencils for one sensor point; neighbours use different ones */
+    int count; /* rays of a pencil */
+    /* Rays first.. of pencil number set (0..sets-1) at the sensor point (x, y) px, as many as are
+       left but no more than WO_PENCIL_PIECE. first: a multiple of that. *out may point into *room.
+     */
+    void (*pencil)(const void *self, double x, double y, unsigned set, int first,
+                   wo_pencil_room *room, wo_pencil *out);
     /* Largest distance |p(v) - x| of any ray over v_far <= v <= v_near, px. */
     double (*reach)(const void *self, double v_far, double v_near);
     /* px of blur radius per dioptre, for comparing vergences. */
@@ -39,7 +52,8 @@ typedef struct wo_thin_pencils {
     double stretch;
     int count;
     unsigned sets;
-    float *rays; /* [sets][4][count] */
+    float *rays;    /* [sets][4][count] */
+    float *weights; /* [sets][count], mean 1; NULL = all 1 */
 } wo_thin_pencils;
 
 /* count >= 1 samples of the aperture in each set. seed changes the samples, not the picture. */

@@ -2,19 +2,27 @@
 /* Copyright the WideOpen authors */
 #include "optics/pencil.h"
 
+#include "optics/sampling.h"
+
 #include <math.h>
 
-/* All sets together hold about this many rays, so that they stay in the cache. */
-enum { RAYS_WANTED = 1 << 16, SETS_MIN = 16, SETS_MAX = 512 };
-
-static void thin_pencil(const void *self, double x, double y, unsigned set, wo_pencil *out)
+static void thin_pencil(const void *self, double x, double y, unsigned set, int first,
+                        wo_pencil_room *room, wo_pencil *out)
 {
     (void)x;
     (void)y;
+    (void)room;
     const wo_thin_pencils *p = self;
     const size_t n = (size_t)p->count;
-    const float *rays = p->rays + 4 * n * set;
-    *out = (wo_pencil){p->count, rays, rays + n, rays + 2 * n, rays + 3 * n, NULL};
+    const float *rays = p->rays + 4 * n * set + first;
+    const int left = p->count - first;
+    *out = (wo_pencil){.count = left < WO_PENCIL_PIECE ? left : WO_PENCIL_PIECE,
+                       .ax = rays,
+                       .ay = rays + n,
+                       .bx = rays + 2 * n,
+                       .by = rays + 3 * n};
+    for (int k = 0; k < 3 && p->weights; k++)
+        out->weight[k] = p->weights + n * set + first;
 }
 
 static double thin_reach(const void *self, double v_far, double v_near)
@@ -33,13 +41,14 @@ static double thin_connect(const void *self, double dx, double dy, double v, dou
         return 0;
     const double ux = dx / scale;
     const double uy = dy / (scale * p->stretch);
-    if (!wo_aperture_inside(&p->shape, ux, uy))
+    const double density = wo_aperture_density(&p->shape, ux, uy);
+    if (density == 0)
         return 0;
     line[2] = k * ux;
     line[3] = k * uy * p->stretch;
     line[0] = -line[2] * p->lens.vf;
     line[1] = -line[3] * p->lens.vf;
-    return 1 / (p->shape.area * scale * scale * p->stretch);
+    return density / (scale * scale * p->stretch);
 }
 
 wo_status wo_thin_pencils_create(const wo_context *context, const wo_thin_lens *lens,
@@ -56,33 +65,30 @@ wo_status wo_thin_pencils_create(const wo_context *context, const wo_thin_lens *
     p->lens = *lens;
     p->stretch = stretch;
     p->count = count;
-    const int sets = RAYS_WANTED / count;
-    p->sets = (unsigned)(sets < SETS_MIN ? SETS_MIN : sets > SETS_MAX ? SETS_MAX : sets);
+    p->sets = wo_lattice_sets(count);
     wo_aperture_make(aperture, &p->shape);
     const size_t n = (size_t)count;
     p->rays = wo_new(context, error, (size_t)p->sets * n, 4 * sizeof *p->rays);
-    if (!p->rays) {
+    if (p->rays && !p->shape.even)
+        p->weights = wo_new(context, error, (size_t)p->sets * n, sizeof *p->weights);
+    if (!p->rays || (!p->shape.even && !p->weights)) {
         wo_thin_pencils_destroy(context, &p);
         return WO_ERR_NOMEM;
     }
-    /* The two-dimensional additive recurrence of the plastic number (Roberts 2018), one random
-       shift for each set (Cranley and Patterson 1976). */
     for (unsigned set = 0; set < p->sets; set++) {
-        const double shift_s = wo_hash(2 * set + 1 + 0x9e3779b9u * seed) * 0x1p-32;
-        const double shift_t = wo_hash(2 * set + 2 + 0x85ebca6bu * seed) * 0x1p-32;
         float *rays = p->rays + 4 * n * set;
         for (size_t i = 0; i < n; i++) {
-            double whole;
             double u[2];
-            const double s = modf(shift_s + ((double)i + 0.5) / (double)n, &whole);
-            const double t = modf(shift_t + (double)i * 0.6180339887498949, &whole);
-            wo_aperture_sample(&p->shape, s, t, u);
+            wo_lattice_point(seed, set, (double)i + 0.5, count, 0, &p->shape, u);
             const double bx = lens->k * u[0];
             const double by = lens->k * u[1] * stretch;
             rays[i] = (float)(-bx * lens->vf);
             rays[n + i] = (float)(-by * lens->vf);
             rays[2 * n + i] = (float)bx;
             rays[3 * n + i] = (float)by;
+            if (p->weights)
+                p->weights[n * set + i] =
+                    (float)(wo_aperture_weight(&p->shape, u[0], u[1]) / p->shape.light);
         }
     }
     *pencils = p;
@@ -91,8 +97,10 @@ wo_status wo_thin_pencils_create(const wo_context *context, const wo_thin_lens *
 
 void wo_thin_pencils_destroy(const wo_context *context, wo_thin_pencils **pencils)
 {
-    if (*pencils)
+    if (*pencils) {
         wo_delete(context, (*pencils)->rays);
+        wo_delete(context, (*pencils)->weights);
+    }
     wo_delete(context, *pencils);
     *pencils = NULL;
 }
@@ -101,6 +109,7 @@ wo_lens wo_thin_pencils_lens(const wo_thin_pencils *pencils)
 {
     return (wo_lens){.self = pencils,
                      .sets = pencils->sets,
+                     .count = pencils->count,
                      .pencil = thin_pencil,
                      .reach = thin_reach,
                      .px_per_dioptre = pencils->lens.k * fmax(1, pencils->stretch),

@@ -11,6 +11,7 @@ static const wo_command commands[] = {
     {"describe", "contexts, clips and parameters of a plugin", wo_cmd_describe},
     {"render", "run a plugin on image files", wo_cmd_render},
     {"footage", "make test scenes with depth, layers and a lens reference", wo_cmd_footage},
+    {"lens", "what a lens is: data, section, aberrations, bokeh", wo_cmd_lens},
     {"compare", "how far one picture is from another", wo_cmd_compare},
     {"sheet", "put pictures side by side under captions", wo_cmd_sheet},
     {"json", "check a JSON file and print values from it", wo_cmd_json},

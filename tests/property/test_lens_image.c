@@ -128,6 +128,66 @@ static void a_light_shows_the_aperture(void **state)
     }
 }
 
+/* Whatever the aperture lets through, and where: a light keeps its energy. */
+static void every_aperture_keeps_the_light(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *key;
+        double value;
+    } options[][4] = {
+        {{"blades", 5}, {"opening", 0.5}},
+        {{"apertureForm", 1}, {"obstruction", 0.3}},
+        {{"apertureForm", 2}, {"rotation", 15}, {"edge", -0.7}},
+        {{"obstruction", 0.6}},
+        {{"apodization", 1}},
+        {{"edge", 1}, {"blades", 7}},
+        {{"ringAmount", 0.8}, {"ringCount", 6}, {"aspect", 0.6}},
+        {{"grainAmount", 1}, {"grainSeed", 3}, {"apodization", 0.3}, {"blades", 6}},
+    };
+    for (size_t i = 0; i < 2 * WO_COUNT(options); i++) {
+        const light l = {i % 2 ? 23.3 : -17, 0, 0, 1, 1, 5000, 0};
+        scene s = light_scene(&l);
+        for (size_t k = 0; k < 4 && options[i / 2][k].key; k++) {
+            const double values[3] = {options[i / 2][k].value};
+            const wo_param *row =
+                wo_param_find(wo_lens_blur_table, WO_LENS_BLUR_PARAMS, options[i / 2][k].key);
+            assert_int_equal(wo_param_set(row, &s.params, values, NULL), WO_OK);
+        }
+        wo_image out = scene_render(&s, NULL);
+        assert_close(sum_of(&out, 0), l.level, 1e-3);
+        assert_close(sum_of(&out, 1), 0.5 * l.level, 1e-3);
+        picture_free(&out);
+        scene_free(&s);
+    }
+    /* Three slits so narrow that no pixel's centre sees the light: its rays still do. */
+    const light tiny = {3.3, 3, 0, 1, 1, 5000, 0};
+    scene slits = light_scene(&tiny);
+    slits.params.obstruction = WO_OBSTRUCTION_MAX;
+    wo_image seen = scene_render(&slits, NULL);
+    assert_close(sum_of(&seen, 0), tiny.level, 0.05);
+    picture_free(&seen);
+    scene_free(&slits);
+    /* Seen in the picture: the hole of a ring, and the smooth rim of an apodized disc. */
+    const light wide = {24, 0, 0, 1, 1, 5000, 0};
+    scene s = light_scene(&wide);
+    s.params.obstruction = 0.5;
+    wo_image out = scene_render(&s, NULL);
+    const double even = wide.level / (aperture_area(&wide) * 0.75);
+    assert_near((double)wo_image_at(&out, LIGHT_X + 3, LIGHT_Y + 8)[0], 0, 0.02 * even);
+    assert_close((double)wo_image_at(&out, LIGHT_X + 18, LIGHT_Y)[0], even, 0.05);
+    picture_free(&out);
+    s.params.obstruction = 0;
+    s.params.apodization = 0.5;
+    out = scene_render(&s, NULL);
+    const double middle = (double)wo_image_at(&out, LIGHT_X, LIGHT_Y)[0];
+    for (int32_t x = 0; x < 24; x++)
+        assert_near((double)wo_image_at(&out, LIGHT_X + x, LIGHT_Y)[0],
+                    middle * pow(10, -x * x / (24.0 * 24.0)), 0.05 * middle);
+    picture_free(&out);
+    scene_free(&s);
+}
+
 /* Larger than the picture of the aperture is counted pixel by pixel. */
 static void a_large_picture_keeps_its_light(void **state)
 {
@@ -291,6 +351,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_light_shows_the_aperture),
+        cmocka_unit_test(every_aperture_keeps_the_light),
         cmocka_unit_test(a_large_picture_keeps_its_light),
         cmocka_unit_test(dim_lights_keep_their_energy),
         cmocka_unit_test(half_the_scale_is_half_the_blur),

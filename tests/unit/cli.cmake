@@ -6,3 +6,19 @@ target_compile_definitions(test_cli PRIVATE _POSIX_C_SOURCE=200809L)
 target_include_directories(test_cli PRIVATE ${PROJECT_SOURCE_DIR})
 target_link_libraries(test_cli PRIVATE wo_base wo_options cmocka m)
 add_test(NAME unit.cli COMMAND test_cli)
+
+add_executable(test_pencil_map_file ${CMAKE_CURRENT_LIST_DIR}/test_pencil_map_file.c
+    ${cli}/pencil_map_file.c)
+target_compile_definitions(test_pencil_map_file PRIVATE _POSIX_C_SOURCE=200809L)
+target_include_directories(test_pencil_map_file PRIVATE
+    ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/ofx_host_stub)
+target_link_libraries(test_pencil_map_file PRIVATE wo_core wo_bridge wo_options cmocka m)
+add_test(NAME unit.pencil_map_file COMMAND test_pencil_map_file)
+
+# Drawings: axes, escaping, files as a whole.
+add_executable(test_plot ${CMAKE_CURRENT_LIST_DIR}/test_plot.c
+    ${cli}/plot.c ${cli}/svg.c ${cli}/text_file.c)
+target_compile_definitions(test_plot PRIVATE _XOPEN_SOURCE=700)
+target_include_directories(test_plot PRIVATE ${PROJECT_SOURCE_DIR})
+target_link_libraries(test_plot PRIVATE wo_base wo_options cmocka m)
+add_test(NAME unit.plot COMMAND test_plot)

@@ -9,9 +9,14 @@
 
 #define PI 3.14159265358979323846
 
+#define SHAPE(count, curved, turned, wide)                                                         \
+    {                                                                                              \
+        .blades = count, .curvature = curved, .rotation = turned, .aspect = wide                   \
+    }
+
 static wo_aperture_shape shape_of(int blades, double curvature, double rotation, double aspect)
 {
-    const wo_aperture aperture = {blades, curvature, rotation, aspect};
+    const wo_aperture aperture = SHAPE(blades, curvature, rotation, aspect);
     wo_error error = {WO_OK, ""};
     wo_aperture_shape shape;
     if (wo_aperture_validate(&aperture, &error) != WO_OK)
@@ -22,10 +27,11 @@ static wo_aperture_shape shape_of(int blades, double curvature, double rotation,
 
 /* Shapes for the tests that hold for all. */
 static const wo_aperture many[] = {
-    {0, 0, 0, 1},      {3, 0, 0, 1},     {3, 0, 40, 1},      {4, 0, 45, 1},    {5, 0.3, 12, 1},
-    {6, 0, 0, 1},      {6, 0, 17, 0.5},  {7, -0.4, 100, 1},  {8, 0.5, -33, 2}, {9, 1, 0, 1},
-    {16, 0, 3, 1},     {3, -1, 10, 1},   {5, -0.8, 371, 10}, {0, 0, 30, 0.1},  {3, 0, 10, 0.1},
-    {11, 0.9, 1e6, 3}, {6, 0, -1e6, 0.7}};
+    SHAPE(0, 0, 0, 1),       SHAPE(3, 0, 0, 1),    SHAPE(3, 0, 40, 1),   SHAPE(4, 0, 45, 1),
+    SHAPE(5, 0.3, 12, 1),    SHAPE(6, 0, 0, 1),    SHAPE(6, 0, 17, 0.5), SHAPE(7, -0.4, 100, 1),
+    SHAPE(8, 0.5, -33, 2),   SHAPE(9, 1, 0, 1),    SHAPE(16, 0, 3, 1),   SHAPE(3, -1, 10, 1),
+    SHAPE(5, -0.8, 371, 10), SHAPE(0, 0, 30, 0.1), SHAPE(3, 0, 10, 0.1), SHAPE(11, 0.9, 1e6, 3),
+    SHAPE(6, 0, -1e6, 0.7)};
 
 /* Integrals of sec^k over a blade, -h..h. */
 static double area_closed_form(int blades, double c)
@@ -276,9 +282,11 @@ static void refused_values(void **state)
 {
     (void)state;
     const wo_aperture bad[] = {
-        {1, 0, 0, 1},      {2, 0, 0, 1},   {17, 0, 0, 1},  {-1, 0, 0, 1},       {6, 1.01, 0, 1},
-        {6, -1.01, 0, 1},  {6, NAN, 0, 1}, {6, 0, NAN, 1}, {6, 0, INFINITY, 1}, {6, 0, 0, 0.09},
-        {6, 0, 0, 10.001}, {6, 0, 0, NAN}, {6, 0, 0, 0},   {6, 0, 0, -1}};
+        SHAPE(1, 0, 0, 1),    SHAPE(2, 0, 0, 1),      SHAPE(17, 0, 0, 1),
+        SHAPE(-1, 0, 0, 1),   SHAPE(6, 1.01, 0, 1),   SHAPE(6, -1.01, 0, 1),
+        SHAPE(6, NAN, 0, 1),  SHAPE(6, 0, NAN, 1),    SHAPE(6, 0, INFINITY, 1),
+        SHAPE(6, 0, 0, 0.09), SHAPE(6, 0, 0, 10.001), SHAPE(6, 0, 0, NAN),
+        SHAPE(6, 0, 0, 0),    SHAPE(6, 0, 0, -1)};
     for (size_t i = 0; i < WO_COUNT(bad); i++) {
         wo_error error = {WO_OK, ""};
         assert_int_equal(wo_aperture_validate(&bad[i], &error), WO_ERR_RANGE);

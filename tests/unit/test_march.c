@@ -55,7 +55,7 @@ static void field_make(field *f, rng *r, int sheets, double radius)
 {
     const double k = pow(10, rng_range(r, -1, 3));
     const wo_thin_lens lens = {k, 0, 1000};
-    const wo_aperture aperture = {rng_int(r, 0, 1) * 6, 0, 11, 1};
+    const wo_aperture aperture = {.blades = rng_int(r, 0, 1) * 6, .rotation = 11, .aspect = 1};
     assert_int_equal(wo_thin_pencils_create(&plain, &lens, &aperture, 1, RAYS,
                                             (uint32_t)rng_bits(r), &f->pencils, NULL),
                      WO_OK);
@@ -107,18 +107,21 @@ static void field_free(field *f)
 static wo_pencil pencil_of(const field *f, unsigned set)
 {
     wo_pencil pencil;
-    f->lens.pencil(f->lens.self, 0, 0, set % f->lens.sets, &pencil);
+    static wo_pencil_room room;
+    f->lens.pencil(f->lens.self, 0, 0, set % f->lens.sets, 0, &room, &pencil);
     return pencil;
 }
 
 static wo_pencil ray_of(const wo_pencil *pencil, int n)
 {
-    return (wo_pencil){1,
-                       pencil->ax + n,
-                       pencil->ay + n,
-                       pencil->bx + n,
-                       pencil->by + n,
-                       pencil->weight ? pencil->weight + n : NULL};
+    wo_pencil ray = {.count = 1,
+                     .ax = pencil->ax + n,
+                     .ay = pencil->ay + n,
+                     .bx = pencil->bx + n,
+                     .by = pencil->by + n};
+    for (int k = 0; k < 3 && pencil->weight[0]; k++)
+        ray.weight[k] = pencil->weight[k] + n;
+    return ray;
 }
 
 static wo_march_sums run(wo_march_function *kernel, const field *f, int32_t row, int run_index,
@@ -133,8 +136,8 @@ static wo_march_sums run(wo_march_function *kernel, const field *f, int32_t row,
 /* Differs in any sum of this lane by more than part, relative to those above 1. */
 static bool lane_differs(const wo_march_sums *a, const wo_march_sums *b, int lane, double part)
 {
-    const float *const p[6] = {a->c[0], a->c[1], a->c[2], a->c[3], a->weight, a->guessed};
-    const float *const q[6] = {b->c[0], b->c[1], b->c[2], b->c[3], b->weight, b->guessed};
+    const float *const p[6] = {a->c[0], a->c[1], a->c[2], a->c[3], a->weight[3], a->guessed};
+    const float *const q[6] = {b->c[0], b->c[1], b->c[2], b->c[3], b->weight[3], b->guessed};
     for (int k = 0; k < 6; k++) {
         const double want = (double)q[k][lane];
         if (!(fabs((double)p[k][lane] - want) <= part * fmax(1, fabs(want))))
@@ -240,7 +243,8 @@ static void rays_bent(const wo_march_view *view, int32_t x, int32_t y, int run_i
                       const wo_pencil *pencil, wo_march_sums *sums)
 {
     const float bx = pencil->bx[0] * 1.002f;
-    const wo_pencil wrong = {1, pencil->ax, pencil->ay, &bx, pencil->by, NULL};
+    const wo_pencil wrong = {
+        .count = 1, .ax = pencil->ax, .ay = pencil->ay, .bx = &bx, .by = pencil->by};
     wo_march_base.march(view, x, y, run_index, &wrong, sums);
 }
 
@@ -269,9 +273,9 @@ static void pencils_are_sums_of_rays(void **state)
     (void)state;
     rng r = {8};
     const int counts[] = {1, 2, 31, 32, 33, 64, 100, 299, 300};
-    float weight[RAYS];
-    for (int n = 0; n < RAYS; n++)
-        weight[n] = (float)rng_range(&r, 0, 2);
+    float weight[3][RAYS];
+    for (int n = 0; n < 3 * RAYS; n++)
+        weight[n % 3][n / 3] = n % 7 < 3 ? 0 : (float)rng_range(&r, 0, 2);
     for (size_t i = 0; i < WO_COUNT(counts); i++) {
         field f;
         field_make(&f, &r, 1 + (int)i % 8, 7);
@@ -283,26 +287,33 @@ static void pencils_are_sums_of_rays(void **state)
             wo_pencil pencil = pencil_of(&f, (unsigned)i);
             pencil.count = counts[i];
             for (int weighted = 0; weighted < 2; weighted++) {
-                double sum[6][WO_LANES] = {{0}};
-                pencil.weight = weighted ? weight : NULL;
+                double sum[9][WO_LANES] = {{0}};
+                for (int c = 0; c < 3; c++)
+                    pencil.weight[c] = weighted ? weight[c] : NULL;
                 const wo_march_sums got = run(row->kernels->march, &f, 3, (int)k, &pencil);
                 for (int n = 0; n < pencil.count; n++) {
                     wo_pencil ray = ray_of(&pencil, n);
-                    ray.weight = NULL;
+                    ray.weight[0] = NULL;
                     const wo_march_sums one = run(row->kernels->march, &f, 3, (int)k, &ray);
-                    const double w = weighted ? (double)weight[n] : 1;
+                    double w[4] = {1, 1, 1, 1};
+                    for (int c = 0; c < 3 && weighted; c++)
+                        w[c] = (double)weight[c][n];
+                    w[3] = (w[0] + w[1] + w[2]) / 3;
                     for (int lane = 0; lane < WO_LANES; lane++) {
-                        for (int c = 0; c < 4; c++)
-                            sum[c][lane] += w * (double)one.c[c][lane];
-                        sum[4][lane] += w * (double)one.weight[lane];
-                        sum[5][lane] += w * (double)one.guessed[lane];
+                        for (int c = 0; c < 4; c++) {
+                            sum[c][lane] += w[c] * (double)one.c[c][lane];
+                            sum[4 + c][lane] += w[c] * (double)one.weight[3][lane];
+                        }
+                        sum[8][lane] += w[3] * (double)one.guessed[lane];
                     }
                 }
                 for (int lane = 0; lane < WO_LANES; lane++) {
-                    for (int c = 0; c < 4; c++)
+                    for (int c = 0; c < 4; c++) {
                         assert_near((double)got.c[c][lane], sum[c][lane], 2e-6 * pencil.count);
-                    assert_near((double)got.weight[lane], sum[4][lane], 2e-6 * pencil.count);
-                    assert_near((double)got.guessed[lane], sum[5][lane], 2e-6 * pencil.count);
+                        assert_near((double)got.weight[c][lane], sum[4 + c][lane],
+                                    2e-6 * pencil.count);
+                    }
+                    assert_near((double)got.guessed[lane], sum[8][lane], 2e-6 * pencil.count);
                 }
             }
         }
@@ -325,7 +336,8 @@ static void lines_with_an_offset(void **state)
                 const float a[2] = {(float)rng_range(&r, -9, 9), (float)rng_range(&r, -9, 9)};
                 const float b[2] = {k * (float)rng_range(&r, -0.6, 0.6),
                                     n % 10 == 0 ? 0 : k * (float)rng_range(&r, -0.6, 0.6)};
-                const wo_pencil ray = {1, &a[0], &a[1], &b[n & 1], &b[1 - (n & 1)], NULL};
+                const wo_pencil ray = {
+                    .count = 1, .ax = &a[0], .ay = &a[1], .bx = &b[n & 1], .by = &b[1 - (n & 1)]};
                 const wo_march_sums got = run(kernels[i].kernels->march, &f, n % ROWS, n % 4, &ray);
                 const wo_march_sums want = run(wo_march_reference.march, &f, n % ROWS, n % 4, &ray);
                 for (int lane = 0; lane < WO_LANES; lane++)

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
-#ifndef WO_CORE_DEFOCUS_SIMD_BASE_H
-#define WO_CORE_DEFOCUS_SIMD_BASE_H
+#ifndef WO_CORE_BASE_SIMD_BASE_H
+#define WO_CORE_BASE_SIMD_BASE_H
 
 /* Vectors of sixteen floats as four of four, in the compiler's own vector types: any machine. */
+#include "base/simd.h"
+
 #include <stdint.h>
 #include <string.h>
 

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
-#ifndef WO_CORE_DEFOCUS_SIMD_AVX2_H
-#define WO_CORE_DEFOCUS_SIMD_AVX2_H
+#ifndef WO_CORE_BASE_SIMD_AVX2_H
+#define WO_CORE_BASE_SIMD_AVX2_H
 
 /* The vectors of simd_base.h in AVX2 and FMA, two registers each. */
+#include "base/simd.h"
+
 #include <immintrin.h>
 #include <stdint.h>
 

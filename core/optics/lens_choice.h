@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#ifndef WO_CORE_OPTICS_LENS_CHOICE_H
+#define WO_CORE_OPTICS_LENS_CHOICE_H
+
+#include "optics/lens_model.h"
+
+/* The lenses to choose from, one list for all effects: key, label. A new one is a row here and a
+   case in wo_lens_choose. */
+#define WO_LENS_KIND_LIST(X)                                                                       \
+    X(THIN, "thin", "Thin lens")                                                                   \
+    X(THICK, "thick", "Thick lens (paraxial)")                                                     \
+    X(SINGLET, "singlet", "Singlet, traced")                                                       \
+    X(PRESCRIPTION, "prescription", "Real design, traced")                                         \
+    X(SEIDEL, "seidel", "Real design, third order")                                                \
+    X(DIAGRAM, "diagram", "Aberration diagram")
+
+typedef enum wo_lens_kind {
+#define WO_LENS_KIND_ENUM(name, key, label) WO_LENS_##name,
+    WO_LENS_KIND_LIST(WO_LENS_KIND_ENUM)
+#undef WO_LENS_KIND_ENUM
+        WO_LENS_KIND_COUNT
+} wo_lens_kind;
+
+/* Glasses of the thick lens and the singlet: key, label, name in the catalogue. */
+#define WO_LENS_GLASS_LIST(X)                                                                      \
+    X("crown", "Crown N-BK7", "N-BK7")                                                             \
+    X("flint", "Dense flint N-SF6", "N-SF6")                                                       \
+    X("fluorite", "Fluorite CaF2", "CaF2")                                                         \
+    X("lanthanum", "Lanthanum crown N-LAK9", "N-LAK9")
+
+typedef struct wo_lens_choice {
+    wo_lens_kind kind;
+    const char *design; /* of prescription and seidel: a name for wo_lens_find */
+    wo_diagram_preset diagram;
+    double residual; /* of the diagram */
+    int glass;       /* row of WO_LENS_GLASS_LIST */
+    double bending;  /* shape factor (r2 + r1) / (r2 - r1): 0 equiconvex, 1 flat behind */
+    double thickness_mm;
+    double focal_mm;   /* every lens is scaled to this focal length */
+    double f_number;   /* the design's own when that is slower */
+    double vf;         /* dioptres from the entrance pupil */
+    double half_field; /* tangent */
+    const double *nm;  /* wavelengths that will be asked for */
+    int lines;
+} wo_lens_choice;
+
+/* A lens that focuses every zone and wavelength at its own place, and nothing else. */
+typedef struct wo_zonal_lens {
+    double radius; /* m, of the entrance pupil */
+    double half_field;
+    wo_diagram diagram;
+} wo_zonal_lens;
+wo_lens_model wo_zonal_lens_model(const wo_zonal_lens *lens);
+
+/* Third-order aberrations of a prescription, as transverse aberrations at the image. */
+typedef struct wo_seidel_lens {
+    double radius; /* m */
+    double half_field;
+    double efl;   /* mm */
+    double scale; /* 1 / (2 n' u') */
+    wo_seidel sums;
+    double tangent; /* that the sums belong to */
+    int lines;
+    double nm[WO_LINES_MAX], shift[WO_LINES_MAX]; /* axial colour, dioptres */
+} wo_seidel_lens;
+/* Needs a valid prescription of revolution. */
+WO_NODISCARD wo_status wo_seidel_lens_make(const wo_prescription *lens, double f_number,
+                                           double half_field, const double *nm, int lines,
+                                           wo_seidel_lens *out, wo_error *error);
+wo_lens_model wo_seidel_lens_model(const wo_seidel_lens *lens);
+
+/* Two spheres of one glass with this focal length, iris in front. */
+WO_NODISCARD wo_status wo_singlet(const wo_glass *glass, double focal_mm, double f_number,
+                                  double bending, double thickness_mm, wo_prescription *lens,
+                                  wo_error *error);
+
+/* Memory of whatever was chosen; const after it is made. */
+typedef struct wo_chosen_lens {
+    union {
+        wo_zonal_lens zonal;
+        wo_seidel_lens seidel;
+        wo_exact_lens exact;
+    } as;
+    wo_lens_model model;
+    double f_number; /* reached */
+} wo_chosen_lens;
+
+/* Not for WO_LENS_THIN, which has pencils of its own. *out points into itself: do not copy it. */
+WO_NODISCARD wo_status wo_lens_choose(const wo_lens_choice *choice, wo_chosen_lens *out,
+                                      wo_error *error);
+
+#endif

@@ -1,0 +1,254 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "optics/pencil_table.h"
+
+#include "optics/sampling.h"
+
+#include <math.h>
+#include <string.h>
+
+struct wo_table_pencils {
+    wo_lens_table *table;
+    wo_table_function *eval;
+    wo_table_pencil_options options;
+    wo_bands bands;
+    bool uniform; /* all weights are 1 */
+    unsigned sets;
+    int begin[WO_LINES_MAX + 1]; /* first ray of each wavelength */
+    size_t stride;               /* floats of one coordinate of a set */
+    float *points;               /* [sets][2][stride]: iris points, wavelength by wavelength */
+    double reach_a, reach_b;     /* px, px per dioptre */
+    float a_max, b_max;          /* px, px per dioptre: beyond these a ray is left out */
+};
+
+/* Rays of one wavelength, at tangent h in the direction (c, s) from the axis. */
+static void make_rays(const wo_table_pencils *p, int line, double h, double c, double s,
+                      const float *x, const float *y, int count, int to, wo_pencil_room *room)
+{
+    float along[WO_PENCIL_PIECE + WO_LANES];
+    float across[WO_PENCIL_PIECE + WO_LANES];
+    wo_table_node node;
+    wo_lens_table_node(p->table, line, h, &node);
+    const float cf = (float)c;
+    const float sf = (float)s;
+    for (int i = 0; i < count; i++) {
+        along[i] = cf * x[i] + sf * y[i];
+        across[i] = cf * y[i] - sf * x[i];
+    }
+    memset(along + count, 0, WO_LANES * sizeof *along);
+    memset(across + count, 0, WO_LANES * sizeof *across);
+    float *const ax = room->ax + to;
+    float *const ay = room->ay + to;
+    float *const bx = room->bx + to;
+    float *const by = room->by + to;
+    float *const weight = room->weight[0] + to;
+    const wo_table_rays out = {ax, ay, bx, by, weight};
+    p->eval(p->table, &node, along, across, count, &out);
+    const float fx = (float)p->options.focal_px;
+    const float fy = (float)(p->options.focal_px * p->options.stretch);
+    const float r = (float)p->bands.weight[line][0];
+    const float g = (float)p->bands.weight[line][1];
+    const float b = (float)p->bands.weight[line][2];
+    for (int i = 0; i < count; i++) {
+        const float a1 = (cf * ax[i] - sf * ay[i]) * fx;
+        const float a2 = (sf * ax[i] + cf * ay[i]) * fy;
+        const float b1 = (cf * bx[i] - sf * by[i]) * fx;
+        const float b2 = (sf * bx[i] + cf * by[i]) * fy;
+        const bool near = fabsf(a1) <= p->a_max && fabsf(a2) <= p->a_max && fabsf(b1) <= p->b_max &&
+                          fabsf(b2) <= p->b_max;
+        ax[i] = near ? a1 : 0;
+        ay[i] = near ? a2 : 0;
+        bx[i] = near ? b1 : 0;
+        by[i] = near ? b2 : 0;
+        const float w = near ? weight[i] : 0;
+        weight[i] = w * r;
+        room->weight[1][to + i] = w * g;
+        room->weight[2][to + i] = w * b;
+    }
+}
+
+static void table_pencil(const void *self, double x, double y, unsigned set, int first,
+                         wo_pencil_room *room, wo_pencil *out)
+{
+    const wo_table_pencils *p = self;
+    const double dx = (x - p->options.centre_x) / p->options.focal_px;
+    const double dy = (y - p->options.centre_y) / (p->options.focal_px * p->options.stretch);
+    const double h = hypot(dx, dy);
+    const double c = h > 0 ? dx / h : 1;
+    const double s = h > 0 ? dy / h : 0;
+    const float *points = p->points + 2 * p->stride * set;
+    const int left = p->options.count - first;
+    const int count = left < WO_PENCIL_PIECE ? left : WO_PENCIL_PIECE;
+    for (int line = 0; line < p->table->lines; line++) {
+        const int from = p->begin[line] > first ? p->begin[line] : first;
+        const int to = p->begin[line + 1] < first + count ? p->begin[line + 1] : first + count;
+        if (from < to)
+            make_rays(p, line, h, c, s, points + from, points + p->stride + from, to - from,
+                      from - first, room);
+    }
+    *out =
+        (wo_pencil){.count = count, .ax = room->ax, .ay = room->ay, .bx = room->bx, .by = room->by};
+    for (int k = 0; k < 3 && !p->uniform; k++)
+        out->weight[k] = room->weight[k];
+}
+
+static double table_reach(const void *self, double v_far, double v_near)
+{
+    const wo_table_pencils *p = self;
+    return p->reach_a + p->reach_b * fmax(fabs(v_far), fabs(v_near));
+}
+
+/* Iris points of all sets: for each wavelength a lattice of its own, moved against the others'. */
+static void make_points(wo_table_pencils *p, const wo_aperture_shape *shape)
+{
+    const int lines = p->table->lines;
+    for (unsigned set = 0; set < p->sets; set++) {
+        float *const x = p->points + 2 * p->stride * set;
+        float *const y = x + p->stride;
+        for (int line = 0; line < lines; line++) {
+            const int begin = p->begin[line];
+            const int n = p->begin[line + 1] - begin;
+            for (int i = 0; i < n; i++) {
+                double u[2];
+                wo_lattice_point(p->options.seed, set, i + (line + 0.5) / lines, n, line, shape, u);
+                x[begin + i] = (float)u[0];
+                y[begin + i] = (float)u[1];
+            }
+        }
+    }
+}
+
+/* Longest a and b of rays that get through, over all nodes; the difference between wavelengths. */
+static void survey(wo_table_pencils *p, wo_table_facts *facts)
+{
+    enum { POINTS = 64 };
+    float s[POINTS];
+    float t[POINTS];
+    float out[WO_LINES_MAX][5][POINTS];
+    for (int i = 0; i < POINTS; i++) {
+        const double r = i < POINTS / 2 ? 1 : sqrt((i - POINTS / 2 + 0.5) / (POINTS / 2));
+        s[i] = (float)(r * cos(2.399963 * i));
+        t[i] = (float)(r * sin(2.399963 * i));
+    }
+    const wo_lens_table *table = p->table;
+    const double f = p->options.focal_px * fmax(1, p->options.stretch);
+    double a_max = 0;
+    double b_max = 0;
+    double parted = 0;
+    p->uniform = table->clips == 0;
+    for (int node = 0; node < table->lit; node++) {
+        for (int line = 0; line < table->lines; line++) {
+            float(*o)[POINTS] = out[line];
+            const wo_table_rays rays = {o[0], o[1], o[2], o[3], o[4]};
+            p->eval(table, &table->node[line * table->nodes + node], s, t, POINTS, &rays);
+            for (int i = 0; i < POINTS; i++) {
+                p->uniform &= fabsf(o[4][i] - 1) < 1e-5f;
+                if (!(o[4][i] > 0))
+                    continue;
+                a_max = fmax(a_max, f * hypot((double)o[0][i], (double)o[1][i]));
+                b_max = fmax(b_max, f * hypot((double)o[2][i], (double)o[3][i]));
+                double d[4];
+                for (int k = 0; k < 4; k++)
+                    d[k] = f * (double)(o[k][i] - out[0][k][i]);
+                if (out[0][4][i] > 0)
+                    parted =
+                        fmax(parted, hypot(d[0], d[1]) + p->options.v_limit * hypot(d[2], d[3]));
+            }
+        }
+    }
+    facts->aberration_px = a_max;
+    facts->colour_px = parted;
+    /* Between nodes and points it may be a little more. */
+    p->reach_a = fmin(1.05 * a_max + 0.01, p->options.max_reach);
+    p->reach_b =
+        fmin(1.05 * b_max, (p->options.max_reach - p->reach_a) / fmax(p->options.v_limit, 1e-30));
+    p->a_max = (float)(p->reach_a / sqrt(2));
+    p->b_max = (float)(p->reach_b / sqrt(2));
+    if (1.05 * a_max + 0.01 <= p->reach_a && 1.05 * b_max <= p->reach_b) {
+        p->a_max = (float)p->reach_a;
+        p->b_max = (float)p->reach_b;
+    }
+}
+
+static wo_status make_table(const wo_context *context, const wo_lens_model *model,
+                            const wo_table_pencil_options *o, int wavelengths, wo_table_pencils *p,
+                            wo_table_facts *facts, wo_error *error)
+{
+    wo_bands_make(wavelengths, &p->bands);
+    if (wavelengths == 1)
+        p->bands.nm[0] = model->reference_nm;
+    wo_lens_table_destroy(context, &p->table);
+    WO_TRY(wo_lens_table_create(context, model, p->bands.nm, p->bands.count, o->focal_px,
+                                o->v_limit, WO_TABLE_PX, &p->table, error));
+    survey(p, facts);
+    return WO_OK;
+}
+
+wo_status wo_table_pencils_create(const wo_context *context, const wo_lens_model *model,
+                                  const wo_table_pencil_options *options,
+                                  wo_table_pencils **pencils, wo_table_facts *facts,
+                                  wo_error *error)
+{
+    *pencils = NULL;
+    *facts = (wo_table_facts){0};
+    WO_TRY(wo_aperture_validate(options->aperture, error));
+    if (options->count < 1)
+        return wo_fail(error, WO_ERR_RANGE, "%d samples: at least 1 is needed", options->count);
+    wo_table_pencils *p = wo_new(context, error, 1, sizeof *p);
+    if (!p)
+        return WO_ERR_NOMEM;
+    p->options = *options;
+    p->options.aperture = NULL;
+    p->eval = wo_table_choose(wo_cpu_detect(context->cpu));
+    int wavelengths = options->wavelengths < options->count ? options->wavelengths : options->count;
+    wo_status status = make_table(context, model, options, wavelengths, p, facts, error);
+    const double colour_px = facts->colour_px;
+    if (status == WO_OK && wavelengths > 1 && colour_px <= WO_COLOUR_PX) {
+        status = make_table(context, model, options, 1, p, facts, error);
+        facts->colour_px = colour_px;
+    }
+    if (status == WO_OK) {
+        const int lines = p->table->lines;
+        for (int i = 0; i <= lines; i++)
+            p->begin[i] = (int)((int64_t)options->count * i / lines);
+        p->uniform &= lines == 1;
+        p->sets = wo_lattice_sets(options->count);
+        p->stride = (size_t)options->count + WO_LANES;
+        p->points = wo_new(context, error, 2 * p->stride * p->sets, sizeof *p->points);
+        status = p->points ? WO_OK : WO_ERR_NOMEM;
+    }
+    if (status != WO_OK) {
+        wo_table_pencils_destroy(context, &p);
+        return status;
+    }
+    wo_aperture_shape shape;
+    wo_aperture_make(options->aperture, &shape);
+    make_points(p, &shape);
+    facts->wavelengths = p->table->lines;
+    facts->degree = p->table->degree;
+    facts->nodes = p->table->nodes;
+    facts->rms_px = p->table->rms_px;
+    facts->field_lit = p->table->field_lit;
+    *pencils = p;
+    return WO_OK;
+}
+
+void wo_table_pencils_destroy(const wo_context *context, wo_table_pencils **pencils)
+{
+    if (*pencils) {
+        wo_lens_table_destroy(context, &(*pencils)->table);
+        wo_delete(context, (*pencils)->points);
+    }
+    wo_delete(context, *pencils);
+    *pencils = NULL;
+}
+
+wo_lens wo_table_pencils_lens(const wo_table_pencils *pencils)
+{
+    return (wo_lens){.self = pencils,
+                     .sets = pencils->sets,
+                     .count = pencils->options.count,
+                     .pencil = table_pencil,
+                     .reach = table_reach,
+                     .px_per_dioptre = pencils->options.px_per_dioptre};
+}

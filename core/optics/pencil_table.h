@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#ifndef WO_CORE_OPTICS_PENCIL_TABLE_H
+#define WO_CORE_OPTICS_PENCIL_TABLE_H
+
+#include "optics/lens_table.h"
+#include "optics/pencil.h"
+#include "spectrum/bands.h"
+
+/* Pencils of any lens model, by its table: samples of the iris, each with one wavelength. */
+typedef struct wo_table_pencils wo_table_pencils;
+
+typedef struct wo_table_pencil_options {
+    const wo_aperture *aperture;
+    double focal_px;           /* px per tangent, horizontally */
+    double stretch;            /* vertical px per horizontal px */
+    double centre_x, centre_y; /* px, where the axis meets the picture */
+    double px_per_dioptre;     /* as the thin lens of this f-number has it */
+    double max_reach;          /* px; rays that would go farther at |v| <= v_limit are left out */
+    double v_limit;            /* dioptres from the focus */
+    double half_field;         /* tangent of the farthest field point */
+    int count;                 /* rays of a pencil */
+    int wavelengths;           /* 1..16 */
+    uint32_t seed;
+} wo_table_pencil_options;
+
+/* What was found out about the lens on the way; for plans and reports. */
+typedef struct wo_table_facts {
+    int wavelengths; /* used: 1 when colours do not part by more than WO_COLOUR_PX */
+    double colour_px;
+    int degree, nodes;
+    double rms_px; /* of the table against the model */
+    double field_lit;
+    double aberration_px; /* longest a of any ray that gets through */
+} wo_table_facts;
+
+#define WO_COLOUR_PX 0.05
+#define WO_TABLE_PX  0.03
+
+WO_NODISCARD wo_status wo_table_pencils_create(const wo_context *context,
+                                               const wo_lens_model *model,
+                                               const wo_table_pencil_options *options,
+                                               wo_table_pencils **pencils, wo_table_facts *facts,
+                                               wo_error *error);
+void wo_table_pencils_destroy(const wo_context *context, wo_table_pencils **pencils);
+wo_lens wo_table_pencils_lens(const wo_table_pencils *pencils);
+
+#endif

@@ -1,0 +1,273 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "lens_view_private.h"
+
+#include <math.h>
+
+#define RADIANS 0.017453292519943295
+
+const double wo_lens_nm[WO_LENS_LINES] = {WO_NM_F, WO_NM_D, WO_NM_C};
+const double wo_lens_fields[WO_LENS_FIELDS] = {0, 0.7, 1};
+
+double wo_lens_sag(const wo_surface *s, wo_meridian meridian, double r)
+{
+    if (s->meridian != WO_MERIDIAN_BOTH && s->meridian != meridian)
+        return 0;
+    const double r2 = r * r, root2 = 1 - (1 + s->conic) * s->curvature * s->curvature * r2;
+    if (root2 < 0)
+        return NAN;
+    double sum = 0;
+    for (int i = s->asphere_terms - 1; i >= 0; i--)
+        sum = sum * r2 + s->asphere[i];
+    return s->curvature * r2 / (1 + sqrt(root2)) + sum * r2;
+}
+
+double wo_lens_sensor_z(const wo_lens_view *view)
+{
+    return view->system.z_last + view->image;
+}
+
+/* A pupil at infinity counts as one at the first vertex. */
+static double pupil_z(const wo_lens_view *view)
+{
+    return isfinite(view->first[1].ep_z) ? view->first[1].ep_z : 0;
+}
+
+static wo_status stop_down(wo_lens_view *view, double f_number, wo_error *error)
+{
+    wo_surface *const stop = &view->lens.surface[view->lens.stop];
+    view->f_number = f_number > 0 ? f_number : view->first[1].fno;
+    if (f_number <= 0)
+        return WO_OK;
+    const wo_first_order *const open = &view->first[1];
+    const double semi = fabs(open->efl / open->ep_mag) / (2 * f_number);
+    if (!isfinite(semi) || semi <= 0)
+        return wo_fail(error, WO_ERR_UNSUPPORTED,
+                       "%s has no f-number: no focal length, or no pupil in front",
+                       view->lens.name);
+    if (stop->semi_aperture > 0 && semi > stop->semi_aperture * 1.0005)
+        return wo_fail(error, WO_ERR_RANGE, "f/%.4g is wider than %s opens: f/%.4g", f_number,
+                       view->lens.name, open->fno);
+    stop->semi_aperture = semi;
+    return WO_OK;
+}
+
+static void make_systems(wo_lens_view *view)
+{
+    wo_system_make(&view->lens, view->nm, &view->system);
+    for (int i = 0; i < WO_LENS_LINES; i++)
+        wo_system_make(&view->lens, wo_lens_nm[i], &view->line[i]);
+    wo_system_first_order(&view->system, WO_MERIDIAN_X, &view->first[0]);
+    wo_system_first_order(&view->system, WO_MERIDIAN_Y, &view->first[1]);
+}
+
+static double passing_area(const wo_lens_view *view, double field)
+{
+    wo_bundle bundle;
+    int passed = 0;
+    if (!wo_bundle_fill(view, view->across, field, WO_LATTICE_GRID, 1600, &bundle))
+        return 0;
+    wo_bundle_trace(view, &view->system, view->across, field, WO_TRACE_CLIP | WO_TRACE_IRIS,
+                    &bundle);
+    for (int i = 0; i < bundle.count; i++)
+        passed += bundle.rays.outcome[i] == WO_RAY_PASSED;
+    const double area = passed * bundle.area;
+    wo_bundle_free(&bundle);
+    return area;
+}
+
+static double field_of(const wo_lens_view *view)
+{
+    const double full = passing_area(view, 0);
+    for (double field = 45; field > 1; field -= 1)
+        if (passing_area(view, field) > full / 3)
+            return field;
+    return 1;
+}
+
+wo_status wo_lens_view_make(const wo_prescription *lens, const wo_lens_setup *setup,
+                            wo_lens_view *view, wo_error *error)
+{
+    *view = (wo_lens_view){
+        .lens = *lens, .nm = setup->nm, .open_semi = lens->surface[lens->stop].semi_aperture};
+    for (int i = 0; i < lens->count; i++)
+        view->anamorphic = view->anamorphic || lens->surface[i].meridian != WO_MERIDIAN_BOTH;
+    make_systems(view);
+    view->across =
+        fabs(view->first[0].efl) < 0.99 * fabs(view->first[1].efl) ? WO_MERIDIAN_X : WO_MERIDIAN_Y;
+    WO_TRY(stop_down(view, setup->f_number, error));
+    make_systems(view);
+    view->vf = setup->focus_m > 0 ? 1 / setup->focus_m : 0;
+    if (view->vf > 0 && pupil_z(view) - 1000 / view->vf > -1)
+        return wo_fail(error, WO_ERR_RANGE, "an object at %g m lies inside of %s", setup->focus_m,
+                       lens->name);
+    const double x = wo_system_image(&view->system, WO_MERIDIAN_X, view->vf);
+    const double y = wo_system_image(&view->system, WO_MERIDIAN_Y, view->vf);
+    view->image = isfinite(x) && isfinite(y) ? (x + y) / 2 : isfinite(y) ? y : x;
+    view->half_field = setup->half_field > 0 ? setup->half_field : lens->half_field;
+    if (view->half_field <= 0)
+        view->half_field = field_of(view);
+    return WO_OK;
+}
+
+wo_status wo_lens_needs_image(const wo_lens_view *view, wo_error *error)
+{
+    if (isfinite(view->image) && view->image > -view->system.z_last &&
+        isfinite(view->first[1].efl) && view->first[1].ep_d > 0)
+        return WO_OK;
+    return wo_fail(error, WO_ERR_UNSUPPORTED,
+                   "%s makes no real image of an object at that distance: only its section and "
+                   "first-order data can be had",
+                   view->lens.name);
+}
+
+static double front_semi(const wo_lens_view *view)
+{
+    const double semi = view->lens.surface[0].semi_aperture;
+    if (semi > 0)
+        return semi;
+    double largest = fmax(view->first[1].ep_d, view->first[0].ep_d) / 2;
+    if (!isfinite(largest) || largest <= 0)
+        largest = 10;
+    for (int i = 0; i < view->lens.count; i++)
+        largest = fmax(largest, view->lens.surface[i].semi_aperture);
+    return largest * 1.5;
+}
+
+/* Half side of the square on the first vertex plane that every ray crosses which meets the clear
+   first surface. */
+static double reach_of(const wo_lens_view *view, double field)
+{
+    const double semi = front_semi(view);
+    const double x = wo_lens_sag(&view->lens.surface[0], WO_MERIDIAN_X, semi);
+    const double y = wo_lens_sag(&view->lens.surface[0], WO_MERIDIAN_Y, semi);
+    const double sag = fmax(isnan(x) ? semi : fabs(x), isnan(y) ? semi : fabs(y));
+    const double slope = tan(fabs(field) * RADIANS);
+    const double limited = view->lens.surface[0].semi_aperture > 0 ? 0 : fabs(pupil_z(view));
+    return semi * 1.02 + sag * (slope + semi * view->vf / 1000) + limited * slope;
+}
+
+void wo_lens_aim_at(const wo_lens_view *view, wo_meridian meridian, double field, double px,
+                    double py, double p[3], double d[3])
+{
+    const double slope = tan(field * RADIANS);
+    const double sx = meridian == WO_MERIDIAN_X ? slope : 0, sy = slope - sx;
+    double back = front_semi(view) + 1;
+    d[0] = sx;
+    d[1] = sy;
+    if (view->vf > 0) {
+        const double far = 1000 / view->vf, to_plane = far - pupil_z(view);
+        d[0] = (px + sx * far) / to_plane;
+        d[1] = (py + sy * far) / to_plane;
+        back = fmin(back, to_plane);
+    }
+    const double length = sqrt(1 + d[0] * d[0] + d[1] * d[1]);
+    p[0] = px - d[0] * back;
+    p[1] = py - d[1] * back;
+    p[2] = -back;
+    d[0] /= length;
+    d[1] /= length;
+    d[2] = 1 / length;
+}
+
+wo_lens_ray wo_lens_aim(const wo_lens_view *view, wo_meridian meridian, double field, double h)
+{
+    wo_lens_ray ray = {.outcome = WO_RAY_PASSED, .stop = NAN};
+    wo_lens_aim_at(view, meridian, field, meridian == WO_MERIDIAN_X ? h : 0,
+                   meridian == WO_MERIDIAN_X ? 0 : h, ray.p, ray.d);
+    return ray;
+}
+
+void wo_lens_trace(const wo_system *system, int first, int last, unsigned flags,
+                   wo_meridian meridian, wo_lens_ray *ray)
+{
+    uint8_t outcome = 0;
+    double stop[2] = {NAN, NAN};
+    const wo_rays rays = {.x = &ray->p[0],
+                          .y = &ray->p[1],
+                          .z = &ray->p[2],
+                          .dx = &ray->d[0],
+                          .dy = &ray->d[1],
+                          .dz = &ray->d[2],
+                          .outcome = &outcome};
+    wo_system_trace(system, first, last, false, flags, &rays, 1, &stop[0], &stop[1]);
+    ray->outcome = (wo_outcome)outcome;
+    if (first <= system->stop && system->stop <= last)
+        ray->stop = stop[meridian == WO_MERIDIAN_X ? 0 : 1];
+}
+
+static wo_lens_ray probe(const wo_lens_view *view, wo_meridian meridian, double field, double h,
+                         int last, unsigned flags)
+{
+    wo_lens_ray ray = wo_lens_aim(view, meridian, field, h);
+    wo_lens_trace(&view->system, 0, last, flags, meridian, &ray);
+    return ray;
+}
+
+/* Where passing begins between a height that does not pass and one that does. */
+static double edge(const wo_lens_view *view, wo_meridian meridian, double field, unsigned flags,
+                   double out, double in)
+{
+    const int last = flags & WO_TRACE_CLIP ? view->system.count - 1 : view->system.stop;
+    for (int i = 0; i < 40; i++) {
+        const double middle = (out + in) / 2;
+        if (probe(view, meridian, field, middle, last, flags).outcome == WO_RAY_PASSED)
+            in = middle;
+        else
+            out = middle;
+    }
+    return in;
+}
+
+/* Bisects for the ray through the centre of the iris. */
+static double find_chief(const wo_lens_view *view, wo_meridian meridian, double field, double low,
+                         double high)
+{
+    const double side = probe(view, meridian, field, low, view->system.stop, 0).stop;
+    for (int i = 0; i < 50; i++) {
+        const double middle = (low + high) / 2;
+        const double stop = probe(view, meridian, field, middle, view->system.stop, 0).stop;
+        if ((stop > 0) == (side > 0))
+            low = middle;
+        else
+            high = middle;
+    }
+    return (low + high) / 2;
+}
+
+bool wo_lens_fan(const wo_lens_view *view, wo_meridian meridian, double field, unsigned flags,
+                 double *low, double *high, double *chief)
+{
+    enum { PROBES = 801 };
+    const double reach = reach_of(view, field), step = 2 * reach / (PROBES - 1);
+    const unsigned wanted = flags | WO_TRACE_IRIS;
+    const int last = wanted & WO_TRACE_CLIP ? view->system.count - 1 : view->system.stop;
+    int begin = -1, end = -1;
+    for (int i = 0; i < PROBES; i++) {
+        const double h = -reach + step * i;
+        if (probe(view, meridian, field, h, last, wanted).outcome != WO_RAY_PASSED)
+            continue;
+        begin = begin < 0 ? i : begin;
+        end = i;
+    }
+    if (begin < 0)
+        return false;
+    *low = edge(view, meridian, field, wanted, -reach + step * (begin - 1), -reach + step * begin);
+    *high = edge(view, meridian, field, wanted, -reach + step * (end + 1), -reach + step * end);
+    *chief = find_chief(view, meridian, field, *low, *high);
+    return true;
+}
+
+double wo_lens_chief_height(const wo_lens_view *view, const wo_system *system, wo_meridian meridian,
+                            double field)
+{
+    double low, high, chief;
+    if (!wo_lens_fan(view, meridian, field, 0, &low, &high, &chief))
+        return NAN;
+    wo_lens_ray ray = wo_lens_aim(view, meridian, field, chief);
+    wo_lens_trace(system, 0, system->count - 1, 0, meridian, &ray);
+    const int axis = meridian == WO_MERIDIAN_X ? 0 : 1;
+    return ray.outcome == WO_RAY_PASSED
+               ? ray.p[axis] + (wo_lens_sensor_z(view) - ray.p[2]) * ray.d[axis] / ray.d[2]
+               : NAN;
+}

@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#ifndef WO_CLI_LENS_VIEW_H
+#define WO_CLI_LENS_VIEW_H
+
+#include "wideopen/lens_trace.h"
+
+/* A lens as it is looked at: stopped down, focused, with bundles of rays through it. Lengths in mm,
+   angles in degrees. */
+
+enum { WO_LENS_LINES = 3, WO_LENS_FIELDS = 3 };
+
+typedef struct wo_lens_view {
+    wo_prescription lens;          /* the iris stopped down to f_number */
+    wo_system line[WO_LENS_LINES]; /* F, d, C */
+    wo_system system;              /* at nm */
+    double nm;
+    wo_first_order first[2]; /* at nm, in x and in y */
+    double f_number;         /* what is meant by it */
+    double vf;               /* dioptres from the entrance pupil to the object, 0 = infinity */
+    double half_field;
+    double image;       /* last vertex to the sensor: the paraxial focus at nm */
+    double open_semi;   /* clear radius of the surface with the iris, as the prescription has it */
+    wo_meridian across; /* where the field is measured: of anamorphic lenses, the wider side */
+    bool anamorphic;    /* some surface is a cylinder */
+} wo_lens_view;
+
+extern const double wo_lens_nm[WO_LENS_LINES];
+extern const double wo_lens_fields[WO_LENS_FIELDS]; /* in parts of half_field */
+
+typedef struct wo_lens_setup {
+    double nm;
+    double f_number;   /* 0: the iris as it is */
+    double focus_m;    /* from the entrance pupil; 0: infinity */
+    double half_field; /* 0: the prescription's own, else where a third of the light is left */
+} wo_lens_setup;
+
+/* WO_ERR_RANGE when the lens does not open so far, or the object is inside of it. */
+WO_NODISCARD wo_status wo_lens_view_make(const wo_prescription *lens, const wo_lens_setup *setup,
+                                         wo_lens_view *view, wo_error *error);
+
+/* WO_ERR_UNSUPPORTED when there is no image to look at. */
+WO_NODISCARD wo_status wo_lens_needs_image(const wo_lens_view *view, wo_error *error);
+
+double wo_lens_sensor_z(const wo_lens_view *view);
+
+/* Sag of a surface along its meridian r away from the axis; NAN beside the surface, 0 across a
+   cylinder's. */
+double wo_lens_sag(const wo_surface *surface, wo_meridian meridian, double r);
+
+/* A bundle from one object point, field degrees off the axis towards meridian. */
+typedef struct wo_bundle {
+    wo_rays rays;            /* where they are now */
+    double *px, *py;         /* where they crossed the plane of the first vertex */
+    double *stop_x, *stop_y; /* NAN: never got there */
+    int count;
+    double area;           /* mm^2 on that plane that each ray stands for */
+    double x1, y1, x2, y2; /* what they fill there */
+} wo_bundle;
+
+typedef enum wo_lattice { WO_LATTICE_GRID, WO_LATTICE_SCATTERED } wo_lattice;
+
+/* Rays that fill what passes through the lens, and a margin; not traced yet. count is reached about
+   (grid) or exactly (scattered). False: out of memory, or nothing passes. */
+bool wo_bundle_fill(const wo_lens_view *view, wo_meridian meridian, double field,
+                    wo_lattice lattice, int count, wo_bundle *bundle) WO_NODISCARD;
+/* The same rays again from the start, traced through system; with outcomes. */
+void wo_bundle_trace(const wo_lens_view *view, const wo_system *system, wo_meridian meridian,
+                     double field, unsigned flags, wo_bundle *bundle);
+/* Other scattered rays; turn is any number. */
+void wo_bundle_scatter(wo_bundle *bundle, int turn);
+void wo_bundle_free(wo_bundle *bundle);
+
+/* One ray in the plane of the meridian, at height h on the first vertex plane. */
+typedef struct wo_lens_ray {
+    double p[3], d[3]; /* x y z */
+    wo_outcome outcome;
+    double stop; /* height at the iris; NAN: never got there */
+} wo_lens_ray;
+wo_lens_ray wo_lens_aim(const wo_lens_view *view, wo_meridian meridian, double field, double h);
+void wo_lens_trace(const wo_system *system, int first, int last, unsigned flags,
+                   wo_meridian meridian, wo_lens_ray *ray);
+
+/* Heights between which rays of the meridian pass the iris (and, with WO_TRACE_CLIP, everything),
+   and that of the one through its centre. False: there are none. */
+bool wo_lens_fan(const wo_lens_view *view, wo_meridian meridian, double field, unsigned flags,
+                 double *low, double *high, double *chief) WO_NODISCARD;
+
+/* Height of the chief ray on the sensor; NAN when none gets there. */
+double wo_lens_chief_height(const wo_lens_view *view, const wo_system *system, wo_meridian meridian,
+                            double field);
+
+#endif

@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "plot.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const wo_pen frame_pen = {"#404040", 1, NULL};
+static const wo_pen grid_pen = {"#e4e4e4", 0.8, NULL};
+static const wo_pen zero_pen = {"#a0a0a0", 0.8, NULL};
+
+/* A range that can be divided: finite, rising, wide enough for doubles to tell its parts apart. */
+static void sane_range(double *low, double *high)
+{
+    if (!isfinite(*low) || !isfinite(*high)) {
+        *low = isfinite(*low) ? *low : isfinite(*high) ? *high - 1 : 0;
+        *high = isfinite(*high) ? *high : *low + 1;
+    }
+    *low = fmin(fmax(*low, -1e300), 1e300);
+    *high = fmin(fmax(*high, -1e300), 1e300);
+    if (*low > *high) {
+        const double swap = *low;
+        *low = *high;
+        *high = swap;
+    }
+    const double size = fmax(fabs(*low), fabs(*high));
+    if (*high - *low <= size * 1e-9 || *high - *low < 1e-300) {
+        const double margin = size > 1e-290 ? size * 0.1 : 1;
+        *low -= margin;
+        *high += margin;
+    }
+}
+
+void wo_ticks_make(double low, double high, int wanted, wo_ticks *ticks)
+{
+    *ticks = (wo_ticks){0};
+    sane_range(&low, &high);
+    const int parts = wanted < 2 ? 2 : wanted > 16 ? 16 : wanted;
+    const double rough = (high - low) / parts;
+    const int power = (int)floor(log10(rough) + 1e-9);
+    const double ten = pow(10, power), times = rough / ten;
+    const int digit = times < 1.5 ? 1 : times < 3.5 ? 2 : times < 7.5 ? 5 : 10;
+    ticks->step = digit * ten;
+    const int decimals = digit == 10 ? -(power + 1) : -power;
+    const double size = fmax(fabs(low), fabs(high));
+    ticks->decimals = decimals > 7 || size >= 1e7 ? -1 : decimals > 0 ? decimals : 0;
+    const double first = ceil(low / ticks->step - 1e-6);
+    for (int i = 0; i < WO_TICKS_MAX; i++) {
+        const double value = (first + i) * ticks->step;
+        if (value > high + ticks->step * 1e-6)
+            break;
+        ticks->value[ticks->count++] = value == 0 ? 0 : value;
+    }
+}
+
+static void fixed_text(char *text, size_t size, double value, int decimals)
+{
+    long long scale = 1;
+    for (int i = 0; i < decimals; i++)
+        scale *= 10;
+    const long long all = llround(fabs(value) * (double)scale);
+    const char *const sign = value < 0 && all > 0 ? "-" : "";
+    if (decimals > 0)
+        snprintf(text, size, "%s%lld.%0*lld", sign, all / scale, decimals, all % scale);
+    else
+        snprintf(text, size, "%s%lld", sign, all);
+}
+
+char *wo_plot_number(char *text, size_t size, double value, int decimals)
+{
+    if (!isfinite(value)) {
+        snprintf(text, size, "%s", isnan(value) ? "-" : value > 0 ? "infinite" : "-infinite");
+        return text;
+    }
+    if (decimals >= 0 && fabs(value) < 1e9) {
+        fixed_text(text, size, value, decimals > 9 ? 9 : decimals);
+        return text;
+    }
+    int power = value == 0 ? 0 : (int)floor(log10(fabs(value)));
+    double mantissa = value == 0 ? 0 : value / pow(10, power);
+    if (fabs(mantissa) >= 9.995) {
+        mantissa /= 10;
+        power++;
+    }
+    char digits[32];
+    fixed_text(digits, sizeof digits, mantissa, 2);
+    snprintf(text, size, "%se%d", digits, power);
+    return text;
+}
+
+void wo_axis_cover(wo_axis *axis, const double *values, int count)
+{
+    for (int i = 0; i < count; i++) {
+        if (!isfinite(values[i]))
+            continue;
+        const bool empty = axis->low > axis->high;
+        axis->low = empty ? values[i] : fmin(axis->low, values[i]);
+        axis->high = empty ? values[i] : fmax(axis->high, values[i]);
+    }
+}
+
+static int wanted_ticks(const wo_axis *axis)
+{
+    return axis->ticks ? axis->ticks : 5;
+}
+
+void wo_axis_round(wo_axis *axis)
+{
+    wo_ticks ticks;
+    if (axis->low > axis->high) {
+        axis->low = 0;
+        axis->high = 1;
+    }
+    sane_range(&axis->low, &axis->high);
+    for (int i = 0; i < 4; i++) { /* a wider range may have coarser ticks */
+        wo_ticks_make(axis->low, axis->high, wanted_ticks(axis), &ticks);
+        axis->low = floor(axis->low / ticks.step + 1e-6) * ticks.step;
+        axis->high = ceil(axis->high / ticks.step - 1e-6) * ticks.step;
+    }
+}
+
+void wo_axis_widen(wo_axis *axis, double least)
+{
+    const double missing = least - (axis->high - axis->low);
+    if (axis->low <= axis->high && missing > 0) {
+        axis->low -= missing / 2;
+        axis->high += missing / 2;
+    }
+}
+
+static double along(const wo_axis *axis, double value)
+{
+    return (value - axis->low) / (axis->high - axis->low);
+}
+
+double wo_plot_x(const wo_plot *plot, double x)
+{
+    return plot->box.x + along(&plot->x, x) * plot->box.w;
+}
+
+double wo_plot_y(const wo_plot *plot, double y)
+{
+    return plot->box.y + (1 - along(&plot->y, y)) * plot->box.h;
+}
+
+static void draw_x_axis(const wo_plot *plot)
+{
+    const wo_box b = plot->box;
+    const double bottom = b.y + b.h;
+    wo_ticks ticks;
+    char text[32];
+    wo_ticks_make(plot->x.low, plot->x.high, wanted_ticks(&plot->x), &ticks);
+    for (int i = 0; i < ticks.count; i++) {
+        const double at = wo_plot_x(plot, ticks.value[i]);
+        wo_svg_line(plot->svg, ticks.value[i] == 0 ? &zero_pen : &grid_pen, at, b.y, at, bottom);
+        wo_svg_line(plot->svg, &frame_pen, at, bottom, at, bottom + 4);
+        wo_plot_number(text, sizeof text, ticks.value[i], ticks.decimals);
+        wo_svg_text(plot->svg, at, bottom + 16, 11, WO_ANCHOR_MIDDLE, false, text);
+    }
+    wo_svg_text(plot->svg, b.x + b.w / 2, bottom + 32, 12, WO_ANCHOR_MIDDLE, false, plot->x.label);
+}
+
+static void draw_y_axis(const wo_plot *plot)
+{
+    const wo_box b = plot->box;
+    wo_ticks ticks;
+    char text[32];
+    wo_ticks_make(plot->y.low, plot->y.high, wanted_ticks(&plot->y), &ticks);
+    for (int i = 0; i < ticks.count; i++) {
+        const double at = wo_plot_y(plot, ticks.value[i]);
+        wo_svg_line(plot->svg, ticks.value[i] == 0 ? &zero_pen : &grid_pen, b.x, at, b.x + b.w, at);
+        wo_svg_line(plot->svg, &frame_pen, b.x - 4, at, b.x, at);
+        wo_plot_number(text, sizeof text, ticks.value[i], ticks.decimals);
+        wo_svg_text(plot->svg, b.x - 7, at + 4, 11, WO_ANCHOR_END, false, text);
+    }
+    wo_svg_text_up(plot->svg, b.x - 42, b.y + b.h / 2, 12, WO_ANCHOR_MIDDLE, plot->y.label);
+}
+
+wo_plot wo_plot_begin(wo_svg *svg, wo_box box, const char *title, wo_axis x, wo_axis y)
+{
+    const double left = y.label ? 58 : 12, below = x.label ? 42 : 12;
+    wo_plot plot = {svg, {box.x + left, box.y + 30, box.w - left - 16, box.h - 30 - below}, x, y};
+    sane_range(&plot.x.low, &plot.x.high);
+    sane_range(&plot.y.low, &plot.y.high);
+    if (title)
+        wo_svg_text(svg, box.x + 12, box.y + 18, 13, WO_ANCHOR_START, true, title);
+    if (x.label)
+        draw_x_axis(&plot);
+    if (y.label)
+        draw_y_axis(&plot);
+    const wo_box b = plot.box;
+    const double fx[] = {b.x, b.x + b.w, b.x + b.w, b.x, b.x};
+    const double fy[] = {b.y, b.y, b.y + b.h, b.y + b.h, b.y};
+    wo_svg_path(svg, &frame_pen, NULL, fx, fy, 5);
+    return plot;
+}
+
+void wo_plot_curve(const wo_plot *plot, const wo_pen *pen, const double *x, const double *y,
+                   int count)
+{
+    double *const at = malloc((size_t)(count > 0 ? count : 1) * 2 * sizeof *at);
+    if (!at) {
+        plot->svg->failed = true;
+        return;
+    }
+    for (int i = 0; i < count; i++) {
+        at[i] = wo_plot_x(plot, x[i]);
+        at[count + i] = wo_plot_y(plot, y[i]);
+    }
+    wo_svg_clip_begin(plot->svg, plot->box);
+    wo_svg_path(plot->svg, pen, NULL, at, at + count, count);
+    wo_svg_clip_end(plot->svg);
+    free(at);
+}
+
+/* About how wide a text is; UTF-8 counts by characters. */
+static double text_width(const char *text, double size)
+{
+    int characters = 0;
+    for (; *text; text++)
+        characters += ((unsigned char)*text & 0xC0) != 0x80;
+    return characters * size * 0.53;
+}
+
+void wo_plot_legend(wo_svg *svg, double x, double y, const wo_pen *pens, const char *const *names,
+                    int count)
+{
+    for (int i = count - 1; i >= 0; i--) {
+        wo_svg_text(svg, x, y, 11, WO_ANCHOR_END, false, names[i]);
+        x -= text_width(names[i], 11) + 5;
+        wo_svg_line(svg, &pens[i], x - 22, y - 4, x, y - 4);
+        x -= 22 + 12;
+    }
+}

@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+
+/* Error against run time of the lens models, for lenses that come with the library: RMS and worst
+   error of the ray at the sensor (px on 1920 px of a 36 mm sensor, of rays through random places of
+   field, iris and wavelength) and nanoseconds for one ray on one core. */
+#include "effects/lens_blur_plan.h"
+#include "optics/lens_table.h"
+#include "tests/property/scenes.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+enum { RAYS = 4096, REPEATS = 20 };
+
+static const double lines_nm[] = {430, 470, 510, 550, 590, 630, 670};
+
+static double time_table(const wo_lens_table *table, wo_table_function *eval)
+{
+    static float s[RAYS], t[RAYS], out[5][RAYS];
+    for (int i = 0; i < RAYS; i++) {
+        const double r = sqrt((i + 0.5) / RAYS);
+        s[i] = (float)(r * cos(2.4 * i));
+        t[i] = (float)(r * sin(2.4 * i));
+    }
+    const wo_table_rays rays = {out[0], out[1], out[2], out[3], out[4]};
+    double best = 1e30;
+    for (int k = 0; k < REPEATS; k++) {
+        const double start = wo_seconds();
+        wo_table_node node;
+        /* 64 rays of one field point and wavelength, as in a render of some hundred rays. */
+        for (int i = 0; i < RAYS; i += 64) {
+            const wo_table_rays part = {out[0] + i, out[1] + i, out[2] + i, out[3] + i, out[4] + i};
+            wo_lens_table_node(table, i / 64 % table->lines, table->field_max * i / RAYS,
+                                     &node);
+            eval(table, &node, s + i, t + i, 64, &part);
+        }
+        best = fmin(best, wo_seconds() - start);
+    }
+    (void)rays;
+    return best / RAYS * 1e9;
+}
+
+/* One exact trace through the whole lens, as fast as it gets: no aiming. */
+static double time_trace(const wo_prescription *lens)
+{
+    static double v[6][RAYS];
+    static uint8_t outcome[RAYS];
+    wo_system system;
+    wo_system_make(lens, WO_NM_D, &system);
+    wo_first_order first;
+    wo_system_first_order(&system, WO_MERIDIAN_X, &first);
+    const wo_rays rays = {v[0], v[1], v[2], v[3], v[4], v[5], NULL, outcome};
+    double best = 1e30;
+    for (int k = 0; k < REPEATS; k++) {
+        for (int i = 0; i < RAYS; i++) {
+            const double r = 0.35 * first.ep_d * sqrt((i + 0.5) / RAYS);
+            v[0][i] = r * cos(2.4 * i);
+            v[1][i] = r * sin(2.4 * i);
+            v[2][i] = -1;
+            v[3][i] = v[4][i] = 0;
+            v[5][i] = 1;
+        }
+        const double start = wo_seconds();
+        wo_system_trace(&system, 0, system.count - 1, false, 0, &rays, RAYS, NULL, NULL);
+        best = fmin(best, wo_seconds() - start);
+    }
+    return best / RAYS * 1e9;
+}
+
+static double time_exact(const wo_lens_model *model)
+{
+    double best = 1e30;
+    for (int k = 0; k < 3; k++) {
+        const double start = wo_seconds();
+        for (int i = 0; i < 256; i++) {
+            const double r = sqrt((i + 0.5) / 256);
+            const double u[2] = {r * cos(2.4 * i), r * sin(2.4 * i)};
+            wo_model_ray ray;
+            (void)model->ray(model->self, model->field_max * i / 400, u, WO_NM_D, &ray);
+        }
+        best = fmin(best, wo_seconds() - start);
+    }
+    return best / 256 * 1e9;
+}
+
+int main(void)
+{
+    static const char *const names[] = {"dgauss_codev_100_f2",      "biotar_zeiss_100_f14",
+                                        "cooke_triplet_50_f5",      "tessar_brendel_100_f28",
+                                        "petzval_kodak_100",        "telephoto_laikin_f56",
+                                        "retrofocus_nikon_100_f28", "masterprime_zeiss_asph",
+                                        "zoom_canon_70_200_at_72",  "doublet_thorlabs_ac508_250a"};
+    unsigned threads = (unsigned)sysconf(_SC_NPROCESSORS_ONLN);
+    wo_context context = WO_CONTEXT_INIT;
+    context.runner = threads_runner(&threads);
+    printf("%-28s %5s  %-8s %-9s %6s %5s  %9s %9s  %8s %8s %8s\n", "lens", "f/", "RMS px",
+           "worst px", "degree", "nodes", "table ns", "plain ns", "trace ns", "exact ns", "fit s");
+    for (size_t i = 0; i < WO_COUNT(names); i++) {
+        static const double stops[] = {0, 2.8, 8};
+        for (size_t k = 0; k < WO_COUNT(stops); k++) {
+            wo_prescription lens;
+            wo_error error = {0};
+            wo_exact_lens exact;
+            wo_lens_table *table;
+            if (wo_lens_find(names[i], &lens, &error) != WO_OK)
+                goto fail;
+            wo_system system;
+            wo_first_order first;
+            wo_system_make(&lens, WO_NM_D, &system);
+            wo_system_first_order(&system, WO_MERIDIAN_X, &first);
+            if (stops[k] > 0 && stops[k] < first.fno)
+                continue;
+            const double half = tan((lens.half_field > 0 ? lens.half_field : 10) * 3.14159 / 180);
+            if (wo_exact_lens_make(&lens, stops[k], 0.4, half, lines_nm, (int)WO_COUNT(lines_nm),
+                                   &exact, &error) != WO_OK)
+                goto fail;
+            const wo_lens_model model = wo_exact_lens_model(&exact);
+            const double focal_px = 1920 * first.efl / 36;
+            const double start = wo_seconds();
+            if (wo_lens_table_create(&context, &model, lines_nm, (int)WO_COUNT(lines_nm), focal_px,
+                                     0.4, 0.03, &table, &error) != WO_OK)
+                goto fail;
+            const double seconds = wo_seconds() - start;
+            printf("%-28s %5.2f  %-8.4f %-9.4f %6d %5d  %9.2f %9.2f  %8.1f %8.0f %8.3f\n", names[i],
+                   exact.f_number, table->rms_px, table->worst_px, table->degree, table->nodes,
+                   time_table(table, wo_table_choose(wo_cpu_detect(WO_CPU_AUTO))),
+                   time_table(table, wo_table_eval_base), time_trace(&lens), time_exact(&model),
+                   seconds);
+            fflush(stdout);
+            wo_lens_table_destroy(&context, &table);
+            continue;
+        fail:
+            printf("%s: %s\n", names[i], error.text);
+            break;
+        }
+    }
+    return 0;
+}
