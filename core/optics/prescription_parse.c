@@ -363,7 +363,7 @@ wo_status wo_prescription_parse(const char *text, size_t bytes, const char *name
     if (bytes > BYTES_MAX)
         return wo_fail(error, WO_ERR_RANGE, "%s: %zu bytes: must be at most %d", cut, bytes,
                        (int)BYTES_MAX);
-    wo_lines lines = wo_lines_begin(text, bytes, cut, error);
+    wo_lines lines = wo_lines_begin(text ? text : "", text ? bytes : 0, cut, error);
     const wo_status status = parse(&lines, lens);
     if (status != WO_OK)
         memset(lens, 0, sizeof *lens);

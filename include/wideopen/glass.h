@@ -41,7 +41,8 @@ const wo_glass *wo_glass_find(const char *name);
 /* n = 1. */
 wo_glass wo_glass_air(void);
 
-/* A glass of nd 1..4 and Abbe number vd 5..200; vd 0 = no dispersion. */
+/* A glass of nd 1..4 and Abbe number vd 5..200, named after them; vd 0 = no dispersion; nd 1 with
+   vd 0 is air. */
 WO_NODISCARD wo_status wo_glass_abbe(double nd, double vd, wo_glass *glass, wo_error *error);
 
 /* A glass of a formula of its own. Refused when its index is not finite and in 1..4 everywhere in

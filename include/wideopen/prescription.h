@@ -49,25 +49,30 @@ typedef struct wo_prescription {
 
 /* Reads a text: the .lens format of docs in core/optics/lens_format.md, or, when its first word
    that is not a comment is a number, the four columns of a pbrt lens file (radius, thickness,
-   index, diameter, in mm; the row of radius 0 and index 0 or 1 is the iris). text need not end in
-   0. name is that of the file, for messages, and the lens's name (its stem) when the text does not
-   say one. Errors name the line. Never reads beyond bytes; any bytes are legal input. */
+   index, diameter, in mm; the row of radius 0 and index 0, or 1 where air is before, is the iris).
+   text need not end in 0. name (may be NULL) is that of the file, for messages, and the lens's name
+   (its stem) when the text does not say one. Errors name the line, and *lens is zero then. Never
+   reads beyond bytes; any bytes are legal input. Any thread. */
 WO_NODISCARD wo_status wo_prescription_parse(const char *text, size_t bytes, const char *name,
                                              wo_prescription *lens, wo_error *error);
 
 /* What the parser makes sure of, for prescriptions made by other means: 1..64 surfaces, exactly one
-   stop, finite numbers, thickness -1e4..1e5 mm and curvature -10..10 /mm, something with power. */
+   stop, finite numbers, thickness -1e4..1e5 mm and curvature -10..10 /mm, something with power; an
+   identifier as name, UTF-8 without control characters as texts, glasses as the functions of
+   glass.h make them. Any thread. */
 WO_NODISCARD wo_status wo_prescription_validate(const wo_prescription *lens, wo_error *error);
 
-/* Writes the .lens format that gives the same prescription again. Returns the length without the
-   closing 0, also when size was too small for it (as snprintf). */
+/* Writes the .lens format that gives the same prescription again, every number equal, if valid.
+   Returns the length without the closing 0, also when size was too small for it (as snprintf).
+   Notes and comments of a text that was read are not kept. Any thread. */
 size_t wo_prescription_print(const wo_prescription *lens, char *text, size_t size);
 
-/* The designs that come with the library, by number (NULL beyond the last) or by name. */
+/* The designs that come with the library, sorted, by number (NULL beyond the last) or by name. Any
+   thread. */
 const char *wo_lens_name_at(size_t index);
 WO_NODISCARD wo_status wo_lens_find(const char *name, wo_prescription *lens, wo_error *error);
 
-/* All lengths times factor > 0. */
+/* All lengths times factor; nothing happens when that is not positive and finite. */
 void wo_prescription_scale(wo_prescription *lens, double factor);
 
 #ifdef __cplusplus

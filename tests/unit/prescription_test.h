@@ -5,6 +5,8 @@
 
 #include "wideopen/prescription.h"
 
+#include "near.h"
+
 #include <string.h>
 
 enum { LENS_TEXT_SIZE = 64 * 1024 };
@@ -54,6 +56,24 @@ static inline const char *round_trip(const wo_prescription *lens, wo_error *erro
     if (wo_prescription_parse(text, length, "again", &again, error) != WO_OK)
         return error->text;
     return difference(lens, &again);
+}
+
+static inline wo_prescription parse_as(const char *text, const char *name)
+{
+    wo_error error = {WO_OK, ""};
+    wo_prescription lens;
+    if (wo_prescription_parse(text, strlen(text), name, &lens, &error) != WO_OK)
+        fail_msg("%s", error.text);
+    return lens;
+}
+
+static inline wo_prescription builtin(const char *name)
+{
+    wo_error error = {WO_OK, ""};
+    wo_prescription lens;
+    if (wo_lens_find(name, &lens, &error) != WO_OK)
+        fail_msg("%s", error.text);
+    return lens;
 }
 
 #endif

@@ -5,7 +5,6 @@
    is a prescription that can be written and read again. */
 #include "prescription_test.h"
 
-#include "near.h"
 #include "scenes.h"
 
 #include <stdlib.h>
