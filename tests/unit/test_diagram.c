@@ -345,6 +345,24 @@ static void traced_lens_in_focus(void **state)
     assert_int_equal(wo_diagram_of_lens(&wide, 0.4, 0, traced_nm, 4, &d, &error), WO_ERR_RANGE);
 }
 
+/* Every design of the library, focused at infinity and at 2 m, open and stopped down. */
+static void designs(void **state)
+{
+    (void)state;
+    int count = 0;
+    for (const char *name; (name = wo_lens_name_at((size_t)count)) != NULL; count++) {
+        wo_prescription lens;
+        assert_int_equal(wo_lens_find(name, &lens, NULL), WO_OK);
+        for (int i = 0; i < 4; i++) {
+            wo_diagram d;
+            trace(&lens, i < 2 ? 0 : 16, i % 2 * 0.5, &d);
+            assert_int_equal(wo_diagram_validate(&d, NULL), WO_OK);
+            assert_near(d.shift[2][0], 0, 2e-5);
+        }
+    }
+    assert_true(count > 20);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -353,7 +371,7 @@ int main(void)
         cmocka_unit_test(apochromat_is_even),   cmocka_unit_test(scaling),
         cmocka_unit_test(interpolation),        cmocka_unit_test(refused),
         cmocka_unit_test(any_place_is_finite),  cmocka_unit_test(presets_are_those_lenses),
-        cmocka_unit_test(traced_lens_in_focus),
+        cmocka_unit_test(traced_lens_in_focus), cmocka_unit_test(designs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
