@@ -355,7 +355,16 @@ static void designs(void **state)
         assert_int_equal(wo_lens_find(name, &lens, NULL), WO_OK);
         for (int i = 0; i < 4; i++) {
             wo_diagram d;
-            trace(&lens, i < 2 ? 0 : 16, i % 2 * 0.5, &d);
+            wo_error error = {WO_OK, ""};
+            const wo_status status =
+                wo_diagram_of_lens(&lens, i < 2 ? 0 : 16, i % 2 * 0.5, traced_nm, 4, &d, &error);
+            /* Beyond a height of 12.67 mm no blue ray comes out of this singlet of f/1. */
+            if (i < 2 && strcmp(name, "singlet_pcx_edmund_49847") == 0) {
+                assert_int_equal(status, i == 0 ? WO_OK : WO_ERR_RANGE);
+                continue;
+            }
+            if (status != WO_OK)
+                fail_msg("%s: %s", name, error.text);
             assert_int_equal(wo_diagram_validate(&d, NULL), WO_OK);
             assert_near(d.shift[2][0], 0, 2e-5);
         }
