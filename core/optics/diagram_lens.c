@@ -36,9 +36,11 @@ static bool zone_focus(const view *v, double height, double *slope, double *verg
     if (!look_out(v, a, &ya, &leaving) || !look_out(v, b, &yb, &leaving))
         return false;
     for (int i = 0; i < 40 && fabs(yb - height) > 1e-11 * height && yb != ya; i++) {
-        const double next = b - (yb - height) * (b - a) / (yb - ya);
+        double next = b - (yb - height) * (b - a) / (yb - ya);
         a = b;
         ya = yb;
+        for (int k = 0; k < 8 && !look_out(v, next, &yb, &leaving); k++)
+            next = 0.5 * (a + next);
         b = next;
         if (!look_out(v, b, &yb, &leaving))
             return false;

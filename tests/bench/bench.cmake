@@ -6,6 +6,7 @@ target_link_libraries(bench_lens_blur PRIVATE wo_blur_footage wo_test_scenes)
 add_executable(bench_lens_models ${CMAKE_CURRENT_LIST_DIR}/bench_lens_models.c)
 target_compile_definitions(bench_lens_models PRIVATE _POSIX_C_SOURCE=200809L)
 target_link_libraries(bench_lens_models PRIVATE wo_test_scenes)
+
 add_executable(bench_pencil_map ${CMAKE_CURRENT_LIST_DIR}/bench_pencil_map.c)
 target_compile_definitions(bench_pencil_map PRIVATE _POSIX_C_SOURCE=200809L)
 target_link_libraries(bench_pencil_map PRIVATE wo_core wo_options m)
