@@ -49,6 +49,7 @@ typedef struct wo_lens_blur_params {
     int32_t lens_glass;
     double lens_bending;
     double lens_thickness;
+    int32_t best_focus;
     int32_t wavelengths;
     int32_t samples;
     int32_t seed;
@@ -56,7 +57,7 @@ typedef struct wo_lens_blur_params {
     int32_t output;
 } wo_lens_blur_params;
 
-enum { WO_LENS_BLUR_PARAMS = 38, WO_LENS_BLUR_GROUPS = 6 };
+enum { WO_LENS_BLUR_PARAMS = 39, WO_LENS_BLUR_GROUPS = 6 };
 extern const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS];
 extern const char *const wo_lens_blur_lens_labels[];
 extern const wo_param_group wo_lens_blur_groups[WO_LENS_BLUR_GROUPS];

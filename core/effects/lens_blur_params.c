@@ -8,8 +8,9 @@
 #define FIELD(name) offsetof(wo_lens_blur_params, name)
 
 const wo_param_group wo_lens_blur_groups[WO_LENS_BLUR_GROUPS] = {
-    {"camera", "Camera", true}, {"depth", "Depth and layers", true}, {"aperture", "Aperture", true},
-    {"lens", "Lens", false},    {"quality", "Quality", true},        {"view", "Output", true},
+    {"camera", "Camera", true},     {"depth", "Depth and layers", true},
+    {"aperture", "Aperture", true}, {"lensModel", "Lens", false},
+    {"quality", "Quality", true},   {"view", "Output", true},
 };
 
 #define DEPTH_KEY(name, key, label)   key,
@@ -392,7 +393,7 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
     {.key = "lens",
      .label = "Lens",
      .unit = "",
-     .group = "lens",
+     .group = "lensModel",
      .help = "What makes the rays. Thin: an ideal lens. Thick: the lens maker's two spheres with "
              "their axial colour. Singlet: the same, traced exactly. Real design: a prescription "
              "scaled to the focal length, traced exactly or in third order. Aberration diagram: "
@@ -409,7 +410,7 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
     {.key = "lensDesign",
      .label = "Design",
      .unit = "",
-     .group = "lens",
+     .group = "lensModel",
      .help = "The prescription of a real design; wideopen lens shows them. Its own f-number is its "
              "fastest.",
      .type = WO_PARAM_CHOICE,
@@ -423,7 +424,7 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
     {.key = "lensDiagram",
      .label = "Diagram",
      .unit = "",
-     .group = "lens",
+     .group = "lensModel",
      .help = "Longitudinal aberration of the aberration diagram: how far zones and wavelengths "
              "focus apart.",
      .type = WO_PARAM_CHOICE,
@@ -438,7 +439,7 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
     {.key = "lensResidual",
      .label = "Residual aberration",
      .unit = "",
-     .group = "lens",
+     .group = "lensModel",
      .help = "How much of the diagram's aberration is left: 1 as such lenses have it, 0 none.",
      .type = WO_PARAM_DOUBLE,
      .offset = FIELD(lens_residual),
@@ -451,7 +452,7 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
     {.key = "lensGlass",
      .label = "Glass",
      .unit = "",
-     .group = "lens",
+     .group = "lensModel",
      .help = "Glass of the thick lens and the singlet.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(lens_glass),
@@ -465,7 +466,7 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
     {.key = "lensBending",
      .label = "Bending",
      .unit = "",
-     .group = "lens",
+     .group = "lensModel",
      .help = "Shape of the thick lens and the singlet, (r2 + r1) / (r2 - r1): 0 both sides alike, "
              "1 flat behind, -1 flat in front, beyond that a meniscus.",
      .type = WO_PARAM_DOUBLE,
@@ -479,7 +480,7 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
     {.key = "lensThickness",
      .label = "Thickness",
      .unit = "mm",
-     .group = "lens",
+     .group = "lensModel",
      .help = "Thickness of the thick lens and the singlet, between the vertices.",
      .type = WO_PARAM_DOUBLE,
      .offset = FIELD(lens_thickness),
@@ -489,15 +490,29 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .ui_min = 0,
      .ui_max = 30,
      .animates = true},
+    {.key = "bestFocus",
+     .label = "Best focus",
+     .unit = "",
+     .group = "lensModel",
+     .help =
+         "Focus where the spot on the axis is smallest, as a photographer would. Off: where the "
+         "rays next to the axis meet.",
+     .type = WO_PARAM_BOOL,
+     .offset = FIELD(best_focus),
+     .initial = {1},
+     .min = 0,
+     .max = 1,
+     .ui_min = 0,
+     .ui_max = 1},
     {.key = "wavelengths",
      .label = "Wavelengths",
      .unit = "",
-     .group = "lens",
+     .group = "lensModel",
      .help =
          "How many wavelengths stand for the spectrum where a lens parts them. 1: none are parted.",
      .type = WO_PARAM_INT,
      .offset = FIELD(wavelengths),
-     .initial = {8},
+     .initial = {16},
      .min = 1,
      .max = WO_BANDS_MAX,
      .ui_min = 1,

@@ -237,6 +237,7 @@ static wo_status make_table_lens(wo_plan *plan, wo_error *error)
         .thickness_mm = p->lens_thickness,
         .focal_mm = p->focal_length,
         .f_number = p->f_stop,
+        .best_focus = p->best_focus != 0,
         .vf = s->lens.vf,
         .half_field = fmin(fmax(corner, 1e-3), FIELD_MAX),
         .nm = bands.nm,
@@ -254,16 +255,26 @@ static wo_status make_table_lens(wo_plan *plan, wo_error *error)
     }
     plan->f_number = chosen->f_number;
     wo_delete(&plan->context, chosen);
-    if (status == WO_OK)
-        plan->lens = wo_table_pencils_lens(plan->table);
-    return status;
+    if (status != WO_OK)
+        return status;
+    plan->lens = wo_table_pencils_lens(plan->table);
+    if (plan->facts.beyond > 0)
+        wo_report_leave_out(&plan->report, "lens rays", "they go farther than the largest blur",
+                            100 * plan->facts.beyond, "% of those tried");
+    return WO_OK;
 }
 
 static wo_status make_lens(wo_plan *plan, wo_error *error)
 {
     plan->f_number = plan->params.f_stop;
-    if (plan->params.lens != WO_LENS_THIN)
-        return make_table_lens(plan, error);
+    if (plan->params.lens != WO_LENS_THIN) {
+        WO_TRY(make_table_lens(plan, error));
+        if (!plan->facts.ideal)
+            return WO_OK;
+        wo_table_pencils_destroy(&plan->context, &plan->table);
+        wo_report_leave_out(&plan->report, "table of the lens",
+                            "it has no aberrations: a thin lens", 0, "");
+    }
     /* Inside the renderer vergence is counted from the focus. */
     wo_thin_lens lens = plan->setup.lens;
     lens.vf = 0;

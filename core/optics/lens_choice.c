@@ -21,7 +21,7 @@ static bool zonal_ray(const void *self, double h, const double u[2], double nm, 
 
 wo_lens_model wo_zonal_lens_model(const wo_zonal_lens *lens)
 {
-    return (wo_lens_model){lens, 0, lens->half_field, WO_NM_D, zonal_ray};
+    return (wo_lens_model){lens, 0, lens->half_field, WO_NM_D, 0, zonal_ray};
 }
 
 /* Welford 1986, 6.5: transverse aberrations of third order. Distortion is left out: the field point
@@ -54,7 +54,33 @@ static bool seidel_ray(const void *self, double h, const double u[2], double nm,
 
 wo_lens_model wo_seidel_lens_model(const wo_seidel_lens *lens)
 {
-    return (wo_lens_model){lens, 0, lens->half_field, WO_NM_D, seidel_ray};
+    return (wo_lens_model){lens, 0, lens->half_field, WO_NM_D, 0, seidel_ray};
+}
+
+bool wo_lens_model_ray(const wo_lens_model *model, double h, const double u[2], double nm,
+                       wo_model_ray *ray)
+{
+    if (!model->ray(model->self, h, u, nm, ray))
+        return false;
+    for (int k = 0; k < 2; k++)
+        ray->a[k] += ray->b[k] * model->refocus;
+    return true;
+}
+
+double wo_lens_model_best_focus(const wo_lens_model *model)
+{
+    enum { RINGS = 64 };
+    double ab = 0;
+    double bb = 0;
+    for (int i = 0; i < RINGS; i++) {
+        const double u[2] = {sqrt((i + 0.5) / RINGS), 0};
+        wo_model_ray ray = {.weight = 0};
+        if (!model->ray(model->self, 0, u, model->reference_nm, &ray))
+            continue;
+        ab += ray.weight * ray.a[0] * ray.b[0];
+        bb += ray.weight * ray.b[0] * ray.b[0];
+    }
+    return bb > 0 ? -ab / bb : 0;
 }
 
 /* Power in dioptres at a wavelength beyond that at the d line. */
@@ -242,5 +268,8 @@ static wo_status choose(const wo_lens_choice *c, wo_prescription *lens, wo_chose
 wo_status wo_lens_choose(const wo_lens_choice *choice, wo_chosen_lens *out, wo_error *error)
 {
     wo_prescription lens; /* some 20 kB; nothing keeps it */
-    return choose(choice, &lens, out, error);
+    WO_TRY(choose(choice, &lens, out, error));
+    if (choice->best_focus)
+        out->model.refocus = wo_lens_model_best_focus(&out->model);
+    return WO_OK;
 }

@@ -8,12 +8,12 @@
 /* The lenses to choose from, one list for all effects: key, label. A new one is a row here and a
    case in wo_lens_choose. */
 #define WO_LENS_KIND_LIST(X)                                                                       \
-    X(THIN, "thin", "Thin lens")                                                                   \
-    X(THICK, "thick", "Thick lens (paraxial)")                                                     \
-    X(SINGLET, "singlet", "Singlet, traced")                                                       \
-    X(PRESCRIPTION, "prescription", "Real design, traced")                                         \
-    X(SEIDEL, "seidel", "Real design, third order")                                                \
-    X(DIAGRAM, "diagram", "Aberration diagram")
+    X(THIN, "thin", "Thin")                                                                        \
+    X(THICK, "thick", "Thick")                                                                     \
+    X(SINGLET, "singlet", "Singlet")                                                               \
+    X(PRESCRIPTION, "prescription", "Prescription")                                                \
+    X(SEIDEL, "seidel", "Seidel")                                                                  \
+    X(DIAGRAM, "diagram", "Diagram")
 
 typedef enum wo_lens_kind {
 #define WO_LENS_KIND_ENUM(name, key, label) WO_LENS_##name,
@@ -24,10 +24,10 @@ typedef enum wo_lens_kind {
 
 /* Glasses of the thick lens and the singlet: key, label, name in the catalogue. */
 #define WO_LENS_GLASS_LIST(X)                                                                      \
-    X("crown", "Crown N-BK7", "N-BK7")                                                             \
-    X("flint", "Dense flint N-SF6", "N-SF6")                                                       \
-    X("fluorite", "Fluorite CaF2", "CaF2")                                                         \
-    X("lanthanum", "Lanthanum crown N-LAK9", "N-LAK9")
+    X("crown", "Crown", "N-BK7")                                                                   \
+    X("flint", "Flint", "N-SF6")                                                                   \
+    X("fluorite", "Fluorite", "CAF2")                                                              \
+    X("lanthanum", "Lanthanum", "N-LAK9")
 
 /* Names of the designs that come with the library, for lists; ends with NULL. */
 enum { WO_LENS_DESIGNS = 30, WO_LENS_DESIGN_DEFAULT = 5 };
@@ -43,6 +43,7 @@ typedef struct wo_lens_choice {
     double thickness_mm;
     double focal_mm;   /* every lens is scaled to this focal length */
     double f_number;   /* the design's own when that is slower */
+    bool best_focus;   /* focus with the smallest spot on the axis, not with paraxial rays */
     double vf;         /* dioptres from the entrance pupil */
     double half_field; /* tangent */
     const double *nm;  /* wavelengths that will be asked for */

@@ -327,5 +327,5 @@ wo_status wo_exact_lens_make(const wo_prescription *lens, double f_number, doubl
 
 wo_lens_model wo_exact_lens_model(const wo_exact_lens *lens)
 {
-    return (wo_lens_model){lens, lens->clips, lens->field_max, WO_NM_D, exact_ray};
+    return (wo_lens_model){lens, lens->clips, lens->field_max, WO_NM_D, 0, exact_ray};
 }

@@ -26,10 +26,18 @@ typedef struct wo_lens_model {
     int clips;           /* how many of clip[] count */
     double field_max;    /* tangent; beyond it no light arrives */
     double reference_nm; /* the wavelength that the focus is set with */
+    double refocus; /* dioptres: the lens is focused so much nearer than its paraxial rays say */
     /* Field point at tangent h along +x, iris coordinates u in the unit disc. false: there is no
        such ray. Any thread. */
     bool (*ray)(const void *self, double h, const double u[2], double nm, wo_model_ray *ray);
 } wo_lens_model;
+
+/* The model's ray with its refocus. */
+bool wo_lens_model_ray(const wo_lens_model *model, double h, const double u[2], double nm,
+                       wo_model_ray *ray);
+
+/* The refocus that makes the spot on the axis smallest (RMS) in the reference wavelength. */
+double wo_lens_model_best_focus(const wo_lens_model *model);
 
 /* A prescription, traced exactly. The ray of an iris point that ends at the sensor point of the
    field is found by Newton's method. */

@@ -130,7 +130,7 @@ static void sample_node(void *user, size_t index, unsigned worker)
         const double angle = PI * fmod(i * 0.6180339887498949, 1);
         const double u[2] = {r * cos(angle), r * sin(angle)};
         wo_model_ray ray = {.weight = 0};
-        if (!job->model->ray(job->model->self, h, u, table->nm[line], &ray))
+        if (!wo_lens_model_ray(job->model, h, u, table->nm[line], &ray))
             continue;
         set->s[set->count] = u[0];
         set->t[set->count] = u[1];
@@ -312,7 +312,7 @@ static void make_trial(void *user, size_t index, unsigned worker)
     t->s = u[0];
     t->t = u[1];
     t->ray = (wo_model_ray){.weight = 0};
-    t->valid = job->model->ray(job->model->self, t->h, u, job->table->nm[t->line], &t->ray) &&
+    t->valid = wo_lens_model_ray(job->model, t->h, u, job->table->nm[t->line], &t->ray) &&
                clip_most(job->model, &t->ray) <= 1;
 }
 

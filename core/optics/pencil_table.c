@@ -19,7 +19,6 @@ struct wo_table_pencils {
     float *points;               /* [sets][3][stride]: iris points and their weights, wavelength by
                                     wavelength */
     double reach_a, reach_b;     /* px, px per dioptre */
-    float a_max, b_max;          /* px, px per dioptre: beyond these a ray is left out */
 };
 
 /* Rays of one wavelength, at tangent h in the direction (c, s) from the axis. */
@@ -48,6 +47,8 @@ static void make_rays(const wo_table_pencils *p, int line, double h, double c, d
     p->eval(p->table, &node, along, across, count, &out);
     const float fx = (float)p->options.focal_px;
     const float fy = (float)(p->options.focal_px * p->options.stretch);
+    const float reach = (float)p->options.max_reach;
+    const float v_limit = (float)p->options.v_limit;
     const float r = (float)p->bands.weight[line][0];
     const float g = (float)p->bands.weight[line][1];
     const float b = (float)p->bands.weight[line][2];
@@ -56,8 +57,8 @@ static void make_rays(const wo_table_pencils *p, int line, double h, double c, d
         const float a2 = (sf * ax[i] + cf * ay[i]) * fy;
         const float b1 = (cf * bx[i] - sf * by[i]) * fx;
         const float b2 = (sf * bx[i] + cf * by[i]) * fy;
-        const bool near = fabsf(a1) <= p->a_max && fabsf(a2) <= p->a_max && fabsf(b1) <= p->b_max &&
-                          fabsf(b2) <= p->b_max;
+        const bool near =
+            fabsf(a1) + v_limit * fabsf(b1) <= reach && fabsf(a2) + v_limit * fabsf(b2) <= reach;
         ax[i] = near ? a1 : 0;
         ay[i] = near ? a2 : 0;
         bx[i] = near ? b1 : 0;
@@ -97,7 +98,7 @@ static void table_pencil(const void *self, double x, double y, unsigned set, int
 static double table_reach(const void *self, double v_far, double v_near)
 {
     const wo_table_pencils *p = self;
-    return p->reach_a + p->reach_b * fmax(fabs(v_far), fabs(v_near));
+    return fmin(p->reach_a + p->reach_b * fmax(fabs(v_far), fabs(v_near)), p->options.max_reach);
 }
 
 /* Iris points of all sets: for each wavelength a lattice of its own, moved against the others'. */
@@ -139,6 +140,8 @@ static void survey(wo_table_pencils *p, wo_table_facts *facts)
     double a_max = 0;
     double b_max = 0;
     double parted = 0;
+    int seen = 0;
+    int beyond = 0;
     p->uniform = table->clips == 0;
     for (int node = 0; node < table->lit; node++) {
         for (int line = 0; line < table->lines; line++) {
@@ -149,6 +152,14 @@ static void survey(wo_table_pencils *p, wo_table_facts *facts)
                 p->uniform &= fabsf(o[4][i] - 1) < 1e-5f;
                 if (!(o[4][i] > 0))
                     continue;
+                seen++;
+                for (int k = 0; k < 2; k++)
+                    if (f * (fabs((double)o[k][i]) +
+                             p->options.v_limit * fabs((double)o[2 + k][i])) >
+                        p->options.max_reach) {
+                        beyond++;
+                        break;
+                    }
                 a_max = fmax(a_max, f * hypot((double)o[0][i], (double)o[1][i]));
                 b_max = fmax(b_max, f * hypot((double)o[2][i], (double)o[3][i]));
                 double d[4];
@@ -162,16 +173,10 @@ static void survey(wo_table_pencils *p, wo_table_facts *facts)
     }
     facts->aberration_px = a_max;
     facts->colour_px = parted;
+    facts->beyond = seen > 0 ? (double)beyond / seen : 0;
     /* Between nodes and points it may be a little more. */
-    p->reach_a = fmin(1.05 * a_max + 0.01, p->options.max_reach);
-    p->reach_b =
-        fmin(1.05 * b_max, (p->options.max_reach - p->reach_a) / fmax(p->options.v_limit, 1e-30));
-    p->a_max = (float)(p->reach_a / sqrt(2));
-    p->b_max = (float)(p->reach_b / sqrt(2));
-    if (1.05 * a_max + 0.01 <= p->reach_a && 1.05 * b_max <= p->reach_b) {
-        p->a_max = (float)p->reach_a;
-        p->b_max = (float)p->reach_b;
-    }
+    p->reach_a = 1.05 * a_max + 0.01;
+    p->reach_b = 1.05 * b_max;
 }
 
 static wo_status make_table(const wo_context *context, const wo_lens_model *model,
@@ -227,6 +232,7 @@ wo_status wo_table_pencils_create(const wo_context *context, const wo_lens_model
     }
     wo_aperture_shape shape;
     wo_aperture_make(options->aperture, &shape);
+    facts->ideal = p->uniform && p->table->lines == 1 && facts->aberration_px < WO_IDEAL_PX;
     p->uniform &= shape.even;
     make_points(p, &shape);
     facts->wavelengths = p->table->lines;

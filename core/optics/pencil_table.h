@@ -31,11 +31,14 @@ typedef struct wo_table_facts {
     int degree, nodes;
     double rms_px; /* of the table against the model */
     double field_lit;
+    bool ideal;           /* rays are those of a thin lens to WO_IDEAL_PX */
+    double beyond;        /* part of the rays that are left out because they go too far */
     double aberration_px; /* longest a of any ray that gets through */
 } wo_table_facts;
 
 #define WO_COLOUR_PX 0.05
 #define WO_TABLE_PX  0.03
+#define WO_IDEAL_PX  0.001
 
 WO_NODISCARD wo_status wo_table_pencils_create(const wo_context *context,
                                                const wo_lens_model *model,

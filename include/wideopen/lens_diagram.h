@@ -41,10 +41,10 @@ typedef struct wo_diagram {
 
 #define WO_DIAGRAM_PRESET_LIST(X)                                                                  \
     X(PERFECT, "perfect", "Perfect")                                                               \
-    X(SPHERICAL, "spherical", "Spherical singlet")                                                 \
-    X(ASPHERICAL, "aspherical", "Aspherical singlet")                                              \
-    X(ACHROMAT_A, "achromatA", "Achromat, soft front")                                             \
-    X(ACHROMAT_B, "achromatB", "Achromat, corrected zone")                                         \
+    X(SPHERICAL, "spherical", "Spherical")                                                         \
+    X(ASPHERICAL, "aspherical", "Aspherical")                                                      \
+    X(ACHROMAT_A, "achromatA", "Achromat A")                                                       \
+    X(ACHROMAT_B, "achromatB", "Achromat B")                                                       \
     X(APOCHROMAT, "apochromat", "Apochromat")
 
 typedef enum wo_diagram_preset {

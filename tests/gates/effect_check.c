@@ -93,6 +93,19 @@ static size_t field_alignment(wo_param_type type)
                : _Alignof(double);
 }
 
+/* Keys of choices: camelCase, or the lower_case names of files. */
+static bool is_name(const char *text)
+{
+    if (is_camel(text, is_lower))
+        return true;
+    if (!is_lower(*text))
+        return false;
+    for (; *text; text++)
+        if (!is_lower(*text) && !(*text >= '0' && *text <= '9') && *text != '_')
+            return false;
+    return true;
+}
+
 static bool is_whole(double value)
 {
     return value == floor(value) && fabs(value) <= INT32_MAX;
@@ -112,8 +125,8 @@ static void check_choices(const char *effect, const wo_param *p, faults *f)
         return;
     }
     for (; count <= MOST && p->choices[count]; count++) {
-        if (!is_camel(p->choices[count], is_lower))
-            fault(f, "%s.%s: the choice \"%s\" is not camelCase", effect, p->key,
+        if (!is_name(p->choices[count]))
+            fault(f, "%s.%s: the choice \"%s\" is no camelCase or lower_case name", effect, p->key,
                   p->choices[count]);
         for (int i = 0; i < count; i++)
             if (strcmp(p->choices[i], p->choices[count]) == 0)
