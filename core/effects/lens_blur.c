@@ -18,6 +18,12 @@ enum { WO_STAR_POINTS = 5 };
 /* px that loading, splitting and seeding look beyond a pixel, one after the other. */
 #define INPUT_MARGIN (WO_SHEET_LOAD_MARGIN + WO_SHEET_SPLIT_MARGIN + 1)
 
+bool wo_lens_blur_has_table(const wo_lens_blur_params *p)
+{
+    return p->lens != WO_LENS_THIN || p->cats_eye != 0 || p->door_left != 0 || p->door_right != 0 ||
+           p->door_bottom != 0 || p->door_top != 0;
+}
+
 wo_status wo_lens_blur_prepare(const wo_lens_blur_params *params, const wo_geometry *geometry,
                                wo_lens_blur_setup *setup, wo_error *error)
 {

@@ -42,6 +42,8 @@ typedef struct wo_lens_blur_params {
     int32_t ring_count;
     double grain_amount;
     int32_t grain_seed;
+    double cats_eye;
+    double door_left, door_right, door_bottom, door_top;
     int32_t lens;
     int32_t lens_design;
     int32_t lens_diagram;
@@ -57,7 +59,7 @@ typedef struct wo_lens_blur_params {
     int32_t output;
 } wo_lens_blur_params;
 
-enum { WO_LENS_BLUR_PARAMS = 39, WO_LENS_BLUR_GROUPS = 6 };
+enum { WO_LENS_BLUR_PARAMS = 44, WO_LENS_BLUR_GROUPS = 6 };
 extern const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS];
 extern const char *const wo_lens_blur_lens_labels[];
 extern const wo_param_group wo_lens_blur_groups[WO_LENS_BLUR_GROUPS];
@@ -86,6 +88,9 @@ typedef struct wo_lens_blur_setup {
     double v_min, v_max;
     int fill_levels; /* of the continuation of hidden surfaces; 0 = no depth, nothing to continue */
 } wo_lens_blur_setup;
+
+/* Does the lens need more than the pencils of the thin lens? */
+bool wo_lens_blur_has_table(const wo_lens_blur_params *params);
 
 WO_NODISCARD wo_status wo_lens_blur_prepare(const wo_lens_blur_params *params,
                                             const wo_geometry *geometry, wo_lens_blur_setup *setup,

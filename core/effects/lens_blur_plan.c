@@ -216,8 +216,11 @@ static wo_status make_table_lens(wo_plan *plan, wo_error *error)
         .stretch = g->pixel_stretch,
         .centre_x = 0.5 * (g->format.x1 + g->format.x2),
         .centre_y = 0.5 * (g->format.y1 + g->format.y2),
-        .max_reach = s->reach,
+        .max_reach = s->reach * fmax(1, g->pixel_stretch) + 0.25,
         .v_limit = s->v_max,
+        .half_diagonal =
+            0.5 * hypot(wo_rect_width(g->format), wo_rect_height(g->format) / g->pixel_stretch),
+        .doors = {p->door_left, p->door_right, p->door_bottom, p->door_top},
         .count = p->samples,
         .wavelengths = p->wavelengths,
         .seed = (uint32_t)p->seed,
@@ -237,6 +240,7 @@ static wo_status make_table_lens(wo_plan *plan, wo_error *error)
         .thickness_mm = p->lens_thickness,
         .focal_mm = p->focal_length,
         .f_number = p->f_stop,
+        .cats_eye = p->cats_eye * corner * s->lens.focal_px / options.half_diagonal,
         .best_focus = p->best_focus != 0,
         .vf = s->lens.vf,
         .half_field = fmin(fmax(corner, 1e-3), FIELD_MAX),
@@ -267,7 +271,7 @@ static wo_status make_table_lens(wo_plan *plan, wo_error *error)
 static wo_status make_lens(wo_plan *plan, wo_error *error)
 {
     plan->f_number = plan->params.f_stop;
-    if (plan->params.lens != WO_LENS_THIN) {
+    if (wo_lens_blur_has_table(&plan->params)) {
         WO_TRY(make_table_lens(plan, error));
         if (!plan->facts.ideal)
             return WO_OK;

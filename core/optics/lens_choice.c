@@ -8,7 +8,6 @@
 
 static bool zonal_ray(const void *self, double h, const double u[2], double nm, wo_model_ray *ray)
 {
-    (void)h;
     const wo_zonal_lens *lens = self;
     const double shift = wo_diagram_at(&lens->diagram, hypot(u[0], u[1]), nm);
     for (int k = 0; k < 2; k++) {
@@ -16,12 +15,14 @@ static bool zonal_ray(const void *self, double h, const double u[2], double nm, 
         ray->a[k] = -ray->b[k] * shift;
     }
     ray->weight = 1;
+    const double beside = u[0] - lens->cats_eye * h;
+    ray->clip[0] = beside * beside + u[1] * u[1];
     return true;
 }
 
 wo_lens_model wo_zonal_lens_model(const wo_zonal_lens *lens)
 {
-    return (wo_lens_model){lens, 0, lens->half_field, WO_NM_D, 0, zonal_ray};
+    return (wo_lens_model){lens, lens->cats_eye != 0, lens->half_field, WO_NM_D, 0, zonal_ray};
 }
 
 /* Welford 1986, 6.5: transverse aberrations of third order. Distortion is left out: the field point
@@ -228,16 +229,25 @@ static void flat_diagram(const wo_prescription *lens, const double *nm, int line
 static wo_status choose(const wo_lens_choice *c, wo_prescription *lens, wo_chosen_lens *out,
                         wo_error *error)
 {
+    const wo_zonal_lens zonal = {.radius = 0.5e-3 * c->focal_mm / c->f_number,
+                                 .half_field = c->half_field,
+                                 .cats_eye = c->cats_eye / c->half_field};
     out->f_number = c->f_number;
     switch (c->kind) {
+    case WO_LENS_THIN:
+        out->as.zonal = zonal;
+        WO_TRY(wo_diagram_make(WO_DIAGRAM_PERFECT, c->focal_mm, c->f_number, 0,
+                               &out->as.zonal.diagram, error));
+        out->model = wo_zonal_lens_model(&out->as.zonal);
+        return WO_OK;
     case WO_LENS_THICK:
         WO_TRY(make_singlet(c, lens, error));
-        out->as.zonal = (wo_zonal_lens){0.5e-3 * c->focal_mm / c->f_number, c->half_field, {0}};
+        out->as.zonal = zonal;
         flat_diagram(lens, c->nm, c->lines, &out->as.zonal.diagram);
         out->model = wo_zonal_lens_model(&out->as.zonal);
         return WO_OK;
     case WO_LENS_DIAGRAM:
-        out->as.zonal = (wo_zonal_lens){0.5e-3 * c->focal_mm / c->f_number, c->half_field, {0}};
+        out->as.zonal = zonal;
         WO_TRY(wo_diagram_make(c->diagram, c->focal_mm, c->f_number, c->residual,
                                &out->as.zonal.diagram, error));
         out->model = wo_zonal_lens_model(&out->as.zonal);
@@ -258,7 +268,6 @@ static wo_status choose(const wo_lens_choice *c, wo_prescription *lens, wo_chose
         out->f_number = out->as.exact.f_number;
         out->model = wo_exact_lens_model(&out->as.exact);
         return WO_OK;
-    case WO_LENS_THIN:
     case WO_LENS_KIND_COUNT:
         break;
     }

@@ -43,6 +43,7 @@ typedef struct wo_lens_choice {
     double thickness_mm;
     double focal_mm;   /* every lens is scaled to this focal length */
     double f_number;   /* the design's own when that is slower */
+    double cats_eye;   /* of the thin and thick lens and the diagram; at half_field */
     bool best_focus;   /* focus with the smallest spot on the axis, not with paraxial rays */
     double vf;         /* dioptres from the entrance pupil */
     double half_field; /* tangent */
@@ -50,10 +51,12 @@ typedef struct wo_lens_choice {
     int lines;
 } wo_lens_choice;
 
-/* A lens that focuses every zone and wavelength at its own place, and nothing else. */
+/* A lens that focuses every zone and wavelength at its own place, and cuts the pupil of field
+   points by a second disc (wo_aperture_cats_eye). */
 typedef struct wo_zonal_lens {
     double radius; /* m, of the entrance pupil */
     double half_field;
+    double cats_eye; /* amount for a field of tangent 1; 0 = none */
     wo_diagram diagram;
 } wo_zonal_lens;
 wo_lens_model wo_zonal_lens_model(const wo_zonal_lens *lens);
@@ -91,7 +94,8 @@ typedef struct wo_chosen_lens {
     double f_number; /* reached */
 } wo_chosen_lens;
 
-/* Not for WO_LENS_THIN, which has pencils of its own. *out points into itself: do not copy it. */
+/* WO_LENS_THIN has faster pencils of its own; as a model it is the perfect diagram. *out points
+ * into itself: do not copy it. */
 WO_NODISCARD wo_status wo_lens_choose(const wo_lens_choice *choice, wo_chosen_lens *out,
                                       wo_error *error);
 

@@ -13,6 +13,7 @@ struct wo_table_pencils {
     wo_table_pencil_options options;
     wo_bands bands;
     bool uniform; /* all weights are 1 */
+    bool has_doors;
     unsigned sets;
     int begin[WO_LINES_MAX + 1]; /* first ray of each wavelength */
     size_t stride;               /* floats of one coordinate of a set */
@@ -70,6 +71,19 @@ static void make_rays(const wo_table_pencils *p, int line, double h, double c, d
     }
 }
 
+/* Takes the rays that barn doors stop. */
+static void close_doors(const wo_table_pencils *p, double x, double y, const float *points,
+                        int count, wo_pencil_room *room)
+{
+    const double fx = (x - p->options.centre_x) / p->options.half_diagonal;
+    const double fy = (y - p->options.centre_y) / (p->options.half_diagonal * p->options.stretch);
+    for (int i = 0; i < count; i++)
+        if (!wo_barn_doors_pass(&p->options.doors, fx, fy, (double)points[i],
+                                (double)points[p->stride + (size_t)i]))
+            for (int k = 0; k < 3; k++)
+                room->weight[k][i] = 0;
+}
+
 static void table_pencil(const void *self, double x, double y, unsigned set, int first,
                          wo_pencil_room *room, wo_pencil *out)
 {
@@ -89,6 +103,8 @@ static void table_pencil(const void *self, double x, double y, unsigned set, int
             make_rays(p, line, h, c, s, points + from, points + p->stride + from,
                       points + 2 * p->stride + from, to - from, from - first, room);
     }
+    if (p->has_doors)
+        close_doors(p, x, y, points + first, count, room);
     *out =
         (wo_pencil){.count = count, .ax = room->ax, .ay = room->ay, .bx = room->bx, .by = room->by};
     for (int k = 0; k < 3 && !p->uniform; k++)
@@ -232,6 +248,9 @@ wo_status wo_table_pencils_create(const wo_context *context, const wo_lens_model
     }
     wo_aperture_shape shape;
     wo_aperture_make(options->aperture, &shape);
+    const wo_barn_doors *doors = &options->doors;
+    p->has_doors = doors->left != 0 || doors->right != 0 || doors->bottom != 0 || doors->top != 0;
+    p->uniform &= !p->has_doors;
     facts->ideal = p->uniform && p->table->lines == 1 && facts->aberration_px < WO_IDEAL_PX;
     p->uniform &= shape.even;
     make_points(p, &shape);

@@ -18,9 +18,10 @@ typedef struct wo_table_pencil_options {
     double px_per_dioptre;     /* as the thin lens of this f-number has it */
     double max_reach;          /* px; rays that would go farther at |v| <= v_limit are left out */
     double v_limit;            /* dioptres from the focus */
-    double half_field;         /* tangent of the farthest field point */
-    int count;                 /* rays of a pencil */
-    int wavelengths;           /* 1..16 */
+    double half_diagonal;      /* px, horizontal ones: the field of the barn doors */
+    wo_barn_doors doors;
+    int count;       /* rays of a pencil */
+    int wavelengths; /* 1..16 */
     uint32_t seed;
 } wo_table_pencil_options;
 

@@ -211,7 +211,7 @@ static void check_table_mistakes(faults *f)
     MISTAKE(s.params[MODE].choices = NULL, "without choices");
     MISTAKE(s.params[MODE].choices = few, "labels do not go");
     MISTAKE(s.params[MODE].choices = same, "twice");
-    MISTAKE(s.params[MODE].choices = odd, "not camelCase");
+    MISTAKE(s.params[MODE].choices = odd, "is no camelCase");
     MISTAKE(s.params[MODE].choice_labels = few, "labels do not go");
     MISTAKE(s.params[MODE].choice_labels = more_labels, "labels do not go");
     MISTAKE(s.params[MODE].max = 2, "the choices");
