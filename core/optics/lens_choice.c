@@ -236,8 +236,7 @@ static wo_status choose(const wo_lens_choice *c, wo_prescription *lens, wo_chose
     switch (c->kind) {
     case WO_LENS_THIN:
         out->as.zonal = zonal;
-        WO_TRY(wo_diagram_make(WO_DIAGRAM_PERFECT, c->focal_mm, c->f_number, 0,
-                               &out->as.zonal.diagram, error));
+        out->as.zonal.diagram = (wo_diagram){.zones = 2, .lines = 1, .nm = {WO_NM_D}};
         out->model = wo_zonal_lens_model(&out->as.zonal);
         return WO_OK;
     case WO_LENS_THICK:
