@@ -262,6 +262,10 @@ for drawing in section aberration spots vignetting page; do
     ! grep -q -i -e ' d="[^"]*[ni]n' $drawing.svg || fail "$drawing.svg: points without numbers"
 done
 present strip.png
+expect 0 lens biotar_zeiss_100_f14 --pencil-map map.exr
+present map.exr
+expect 1 lens biotar_zeiss_100_f14 --pencil-map missing-folder/map.exr
+expect 1 lens biotar_zeiss_100_f14 --bokeh missing-folder/strip.png
 expect 0 lens single.dat --page again.svg --focus 2 --field 10 --json
 is_json stdout
 checks=$((checks + 1))
