@@ -140,6 +140,8 @@ static bool follow(const section *s, double field, double h, double end_z, doubl
     for (int i = 0; i < system->count && passed; i++) {
         wo_lens_trace(system, i, i, WO_TRACE_CLIP | WO_TRACE_IRIS, s->meridian, &ray);
         passed = ray.outcome == WO_RAY_PASSED;
+        if (ray.outcome == WO_RAY_MISSED)
+            break;
         x[n] = at_z(s, ray.p[2]);
         y[n++] = at_h(s, ray.p[axis]);
     }
