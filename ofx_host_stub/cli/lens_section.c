@@ -156,7 +156,7 @@ static bool follow(const section *s, double field, double h, double end_z, doubl
 /* A fan of one field. What is stopped on its way is pale and ends there. */
 static void draw_fan(const section *s, int f, unsigned flags, bool stopped, double end_z)
 {
-    static const wo_pen pale = {"#c8c8c8", 0.7, NULL};
+    static const wo_pen pale = {"#a4a4a4", 0.7, NULL};
     const double field = wo_lens_fields[f] * s->view->half_field;
     double low, high, chief;
     if (!wo_lens_fan(s->view, s->meridian, field, flags, &low, &high, &chief))
