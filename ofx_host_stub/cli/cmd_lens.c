@@ -35,6 +35,10 @@ static const wo_option options[] = {
     {"--spots", NULL, "FILE", "Spot diagrams at 0, 0.7 and 1 of the field, as SVG.", false},
     {"--vignetting", NULL, "FILE", "Vignetting and distortion over the field, as SVG.", false},
     {"--bokeh", NULL, "FILE", "Density of rays through focus over the field: png, tif ...", false},
+    {"--pencil-map", NULL, "FILE",
+     "Density of the axial bundle over distance from the focus and radius at F, d and C, as EXR; "
+     "heights in micrometres on the sensor for an object at infinity.",
+     false},
 };
 
 static const wo_usage usage = {
@@ -224,9 +228,15 @@ static wo_status draw(const wo_args *args, const wo_lens_view *view, int *drawn,
         WO_TRY(wo_lens_page_save(view, pages[i].page, path, error));
         *drawn += 1;
     }
-    const char *const bokeh = wo_args_value(args, "--bokeh", 0);
-    if (bokeh) {
-        WO_TRY(wo_lens_strip_save(view, bokeh, error));
+    static const struct {
+        const char *option;
+        wo_status (*save)(const wo_lens_view *view, const char *path, wo_error *error);
+    } pictures[] = {{"--bokeh", wo_lens_strip_save}, {"--pencil-map", wo_lens_pencil_map_save}};
+    for (size_t i = 0; i < WO_COUNT(pictures); i++) {
+        const char *const path = wo_args_value(args, pictures[i].option, 0);
+        if (!path)
+            continue;
+        WO_TRY(pictures[i].save(view, path, error));
         *drawn += 1;
     }
     return WO_OK;

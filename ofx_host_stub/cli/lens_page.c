@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { HEAD = 64 };
+enum { HEAD = 78 };
 
 /* "-" for what the lens does not have. */
 static const char *length_text(char *text, size_t size, double value)
@@ -17,6 +17,24 @@ static const char *length_text(char *text, size_t size, double value)
     return text;
 }
 
+/* A line of the head; what does not fit into the width is cut. */
+static void draw_fitting(wo_svg *svg, double y, double size, double width, bool bold,
+                         const char *text)
+{
+    char line[600];
+    const int room = (int)((width - 56) / (size * (bold ? 0.55 : 0.5)));
+    int characters = 0;
+    size_t length = 0;
+    while (text[length] && length < sizeof line - 4) {
+        characters += ((unsigned char)text[length] & 0xC0) != 0x80;
+        if (characters > room)
+            break;
+        length++;
+    }
+    snprintf(line, sizeof line, "%.*s%s", (int)length, text, text[length] ? "..." : "");
+    wo_svg_text(svg, 28, y, size, WO_ANCHOR_START, bold, line);
+}
+
 static void draw_head(const wo_lens_view *view, wo_svg *svg, double width)
 {
     char text[600], efl[40], fno[32], field[32], nm[32], focus[64] = "infinity", metres[32];
@@ -24,16 +42,16 @@ static void draw_head(const wo_lens_view *view, wo_svg *svg, double width)
     if (view->vf > 0)
         snprintf(focus, sizeof focus, "%s m from the entrance pupil",
                  wo_plot_number(metres, sizeof metres, 1 / view->vf, 3));
-    wo_svg_text(svg, 28, 30, 18, WO_ANCHOR_START, true, lens->title[0] ? lens->title : lens->name);
+    draw_fitting(svg, 30, 18, width, true, lens->title[0] ? lens->title : lens->name);
     snprintf(text, sizeof text, "focal length %s, f/%s, half field %s\xC2\xB0, %s nm, object at %s",
              length_text(efl, sizeof efl, view->first[1].efl),
              wo_plot_number(fno, sizeof fno, view->first[1].fno, 2),
              wo_plot_number(field, sizeof field, view->half_field, 1),
              wo_plot_number(nm, sizeof nm, view->nm, 1), focus);
-    wo_svg_text(svg, 28, 50, 12, WO_ANCHOR_START, false, text);
+    draw_fitting(svg, 50, 12, width, false, text);
     if (lens->source[0]) {
         snprintf(text, sizeof text, "Source: %s", lens->source);
-        wo_svg_text(svg, width - 28, 30, 10, WO_ANCHOR_END, false, text);
+        draw_fitting(svg, 67, 10, width, false, text);
     }
 }
 
@@ -128,9 +146,9 @@ wo_status wo_lens_page_save(const wo_lens_view *view, wo_lens_page page, const c
         const char *name;
         double width, height;
     } pages[] = {
-        {"section", 1000, 600},      {"longitudinal aberration", 560, 620},
+        {"section", 1000, 600},      {"longitudinal aberration", 680, 640},
         {"spot diagrams", 900, 520}, {"vignetting and distortion", 900, 500},
-        {"lens data", 1280, 840},
+        {"lens data", 1280, 856},
     };
     char title[256];
     wo_svg svg;

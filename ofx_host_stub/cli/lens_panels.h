@@ -35,7 +35,7 @@ WO_NODISCARD wo_status wo_lens_page_save(const wo_lens_view *view, wo_lens_page 
 WO_NODISCARD wo_status wo_lens_strip_save(const wo_lens_view *view, const char *path,
                                           wo_error *error);
 
-/* The pencil map of the axial bundle, one channel for each of the C, d and F lines. */
+/* The pencil map of the axial bundle at F, d and C, heights in micrometres on the sensor. */
 WO_NODISCARD wo_status wo_lens_pencil_map_save(const wo_lens_view *view, const char *path,
                                                wo_error *error);
 

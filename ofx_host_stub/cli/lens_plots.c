@@ -10,7 +10,7 @@
 
 const wo_pen wo_lens_line_pens[WO_LENS_LINES] = {
     {"#1f4fd8", 1.4, "7 3"}, {"#128a3c", 1.6, NULL}, {"#d0241c", 1.4, "2 2"}};
-const char *const wo_lens_line_names[WO_LENS_LINES] = {"F 486.1 nm", "d 587.6 nm", "C 656.3 nm"};
+const char *const wo_lens_line_names[WO_LENS_LINES] = {"F 486 nm", "d 588 nm", "C 656 nm"};
 const wo_pen wo_lens_field_pens[WO_LENS_FIELDS] = {
     {"#1f4fd8", 0.9, NULL}, {"#128a3c", 0.9, NULL}, {"#d0241c", 0.9, NULL}};
 

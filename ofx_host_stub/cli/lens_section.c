@@ -140,6 +140,8 @@ static bool follow(const section *s, double field, double h, double end_z, doubl
     for (int i = 0; i < system->count && passed; i++) {
         wo_lens_trace(system, i, i, WO_TRACE_CLIP | WO_TRACE_IRIS, s->meridian, &ray);
         passed = ray.outcome == WO_RAY_PASSED;
+        if (ray.outcome == WO_RAY_MISSED)
+            break;
         x[n] = at_z(s, ray.p[2]);
         y[n++] = at_h(s, ray.p[axis]);
     }
@@ -151,25 +153,37 @@ static bool follow(const section *s, double field, double h, double end_z, doubl
     return passed;
 }
 
-/* What the iris would let through; rays that are stopped on the way are pale and end there. */
+/* A fan of one field. What is stopped on its way is pale and ends there. */
+static void draw_fan(const section *s, int f, unsigned flags, bool stopped, double end_z)
+{
+    static const wo_pen pale = {"#a4a4a4", 0.7, NULL};
+    const double field = wo_lens_fields[f] * s->view->half_field;
+    double low, high, chief;
+    if (!wo_lens_fan(s->view, s->meridian, field, flags, &low, &high, &chief))
+        return;
+    if (stopped && f == 0) { /* the whole entrance pupil: some of it may never see the iris */
+        const double pupil = s->view->first[s->meridian == WO_MERIDIAN_X ? 0 : 1].ep_d / 2;
+        const double semi = fmin(pupil, drawn_semi(s->view, s->meridian, 0));
+        low = fmin(low, -semi);
+        high = fmax(high, semi);
+    }
+    const double inset = (high - low) * 1e-5, step = (high - low - 2 * inset) / (FAN - 1);
+    for (int i = 0; i < FAN; i++) {
+        double x[PATH], y[PATH];
+        int count;
+        const bool passed = follow(s, field, low + inset + step * i, end_z, x, y, &count);
+        if (passed != stopped)
+            wo_svg_path(s->svg, passed ? &wo_lens_field_pens[f] : &pale, NULL, x, y, count);
+    }
+}
+
+/* Of the rays that would fill the iris those that do not get through, then what does. */
 static void draw_rays(const section *s, double end_z)
 {
-    for (int f = 0; f < WO_LENS_FIELDS; f++) {
-        const double field = wo_lens_fields[f] * s->view->half_field;
-        double low, high, chief;
-        if (!wo_lens_fan(s->view, s->meridian, field, 0, &low, &high, &chief))
-            continue;
-        const double inset = (high - low) * 1e-5;
-        for (int i = 0; i < FAN; i++) {
-            const double part = (double)i / (FAN - 1);
-            const double h = low + inset + (high - low - 2 * inset) * part;
-            double x[PATH], y[PATH];
-            int count;
-            const bool passed = follow(s, field, h, end_z, x, y, &count);
-            const wo_pen stopped = {"#c8c8c8", 0.7, NULL};
-            wo_svg_path(s->svg, passed ? &wo_lens_field_pens[f] : &stopped, NULL, x, y, count);
-        }
-    }
+    for (int f = 0; f < WO_LENS_FIELDS; f++)
+        draw_fan(s, f, 0, true, end_z);
+    for (int f = 0; f < WO_LENS_FIELDS; f++)
+        draw_fan(s, f, WO_TRACE_CLIP, false, end_z);
 }
 
 static void mark(const section *s, double z, double above, const char *name)

@@ -55,6 +55,7 @@ void wo_ticks_make(double low, double high, int wanted, wo_ticks *ticks)
     }
 }
 
+/* |value| < 1e9, decimals up to 9. */
 static void fixed_text(char *text, size_t size, double value, int decimals)
 {
     long long scale = 1;
@@ -62,10 +63,16 @@ static void fixed_text(char *text, size_t size, double value, int decimals)
         scale *= 10;
     const long long all = llround(fabs(value) * (double)scale);
     const char *const sign = value < 0 && all > 0 ? "-" : "";
-    if (decimals > 0)
-        snprintf(text, size, "%s%lld.%0*lld", sign, all / scale, decimals, all % scale);
-    else
-        snprintf(text, size, "%s%lld", sign, all);
+    int length = snprintf(text, size, "%s%lld", sign, all / scale);
+    bool first = true;
+    for (; decimals > 0 && length > 0 && (size_t)length + 2 < size; decimals--) {
+        if (first)
+            text[length++] = '.';
+        first = false;
+        scale /= 10;
+        text[length++] = (char)('0' + all / scale % 10);
+        text[length] = '\0';
+    }
 }
 
 char *wo_plot_number(char *text, size_t size, double value, int decimals)

@@ -90,7 +90,7 @@ same() {
 
 # ------------------------------------------------------------------------------- help and mistakes
 
-for command in list describe render footage compare sheet json; do
+for command in list describe render footage lens compare sheet json; do
     expect 0 "$command" --help
     shows "wideopen $command"
 done
@@ -156,6 +156,133 @@ expect 2 footage no-such-scene -o scene2
 says still-life
 expect 2 footage two-planes -o scene2 --size 96
 absent scene2
+
+# ------------------------------------------------------------------------------------------- lens
+
+# well_formed FILE: every element is closed by its own name, in order; no attribute is open.
+well_formed() {
+    checks=$((checks + 1))
+    tr -d '\n' <"$1" | sed 's/</\n</g' | awk '
+        NR == 1 { if ($0 != "") bad = "text before the first element"; next }
+        {
+            if (!match($0, />/)) { bad = "no end: " $0; exit }
+            tag = substr($0, 1, RSTART)
+            quotes = gsub(/"/, "\"", tag)
+            if (quotes % 2) bad = "quotes: " tag
+            if (tag ~ /^<\?/) next
+            name = tag
+            gsub(/^<\/?|[ \/>].*$/, "", name)
+            if (tag ~ /^<\//) {
+                if (open[depth--] != name) bad = "closes another: " tag
+            } else if (tag !~ /\/>$/) {
+                open[++depth] = name
+            }
+            if (bad) exit
+        }
+        END {
+            if (!bad && (depth || NR < 3)) bad = "something stays open"
+            if (bad) { print bad; exit 1 }
+        }' >xml_error || fail "$1: $(cat xml_error)"
+}
+
+silent_error() {
+    checks=$((checks + 1))
+    [ ! -s stderr ] || fail "something on stderr"
+}
+
+expect 0 lens list
+shows '^biotar_zeiss_100_f14 '
+expect 0 lens list --json
+is_json stdout
+cp stdout lenses.json
+value lenses.json 0.name "$("$wideopen" lens list | sed -n '1s/ .*//p')"
+"$wideopen" lens list | while read -r lens title; do
+    "$wideopen" lens "$lens" --json >lens.json 2>stderr || echo "$lens $title"
+    "$json_check" <lens.json 2>>stderr || echo "$lens $title"
+done >broken_lenses
+checks=$((checks + 1))
+[ ! -s broken_lenses ] || fail "lenses without data: $(cat broken_lenses)"
+
+expect 0 lens biotar_zeiss_100_f14
+shows 'focal length'
+silent_error
+expect 0 lens biotar_zeiss_100_f14 --json
+is_json stdout
+cp stdout lens.json
+for key in efl bfd ffd H1 H2 ep_z ep_d xp_z xp_d fno; do
+    checks=$((checks + 1))
+    "$wideopen" json lens.json "$key" >key 2>stderr || fail "lens --json lacks $key"
+done
+value lens.json name biotar_zeiss_100_f14
+expect 0 lens biotar_zeiss_100_f14 --json --wavelength 486.1327 --fnumber 4
+value stdout wavelength 486.1327
+value stdout fno 4
+expect 2 lens biotar_zeis_100_f14
+says 'did you mean biotar_zeiss_100_f14'
+expect 2 lens nothing_of_the_kind_at_all
+says 'wideopen lens list'
+expect 1 lens missing.lens
+says missing.lens
+expect 1 lens biotar_zeiss_100_f14 --fnumber 0.5
+says 'wider than'
+expect 2 lens biotar_zeiss_100_f14 --wavelength 10
+expect 2 lens biotar_zeiss_100_f14 --meridian z
+expect 1 lens biotar_zeiss_100_f14 --focus 0.01
+expect 2 lens
+
+# A single lens by the columns of a pbrt file, and the same with a mistake in its fourth line.
+cat >single.dat <<'END'
+# radius thickness index diameter
+50 6 1.5168 20
+-50 2 1 20
+0 40 1 16
+END
+expect 0 lens single.dat --json
+is_json stdout
+value stdout name single
+sed '4s/40/fourty/' single.dat >wrong.dat
+expect 1 lens wrong.dat
+says 'wrong.dat.*4'
+expect 1 lens wrong.dat --page wrong.svg
+absent wrong.svg
+head -c 1100000 /dev/zero >large.lens
+expect 1 lens large.lens
+says 'longer than'
+: >empty.lens
+expect 1 lens empty.lens
+
+expect 0 lens single.dat --section section.svg --aberration aberration.svg --spots spots.svg \
+    --vignetting vignetting.svg --page page.svg --bokeh strip.png --focus 2 --field 10
+silent
+silent_error
+for drawing in section aberration spots vignetting page; do
+    present $drawing.svg
+    well_formed $drawing.svg
+    checks=$((checks + 1))
+    ! grep -q -i -e ' d="[^"]*[ni]n' $drawing.svg || fail "$drawing.svg: points without numbers"
+done
+present strip.png
+expect 0 lens biotar_zeiss_100_f14 --pencil-map map.exr
+present map.exr
+expect 1 lens biotar_zeiss_100_f14 --pencil-map missing-folder/map.exr
+expect 1 lens biotar_zeiss_100_f14 --bokeh missing-folder/strip.png
+expect 0 lens single.dat --page again.svg --focus 2 --field 10 --json
+is_json stdout
+checks=$((checks + 1))
+cmp -s page.svg again.svg || fail "two drawings of one lens differ"
+expect 0 lens anamorphic_schneider_31 --page anamorphic.svg
+well_formed anamorphic.svg
+
+echo old >kept.svg
+expect 1 lens single.dat --page missing-folder/page.svg
+says missing-folder
+expect 1 lens single.dat --fnumber 0.5 --page kept.svg
+checks=$((checks + 1))
+[ "$(cat kept.svg)" = old ] || fail "a failed drawing touched kept.svg"
+if [ -c /dev/full ]; then
+    expect 1 lens single.dat --page /dev/full
+    says /dev/full
+fi
 
 # ----------------------------------------------------------------------------------------- compare
 
