@@ -141,6 +141,43 @@ static void put_point(wo_svg *svg, const char *verb, double x, double y)
     put_number(svg, y);
 }
 
+static bool in_box(const wo_svg *svg, double x, double y)
+{
+    return !svg->clipped ||
+           (x >= svg->left && x <= svg->right && y >= svg->top && y <= svg->bottom);
+}
+
+/* Narrows the part from..to of a line to where start + t step is in low..high. */
+static void narrow(double start, double step, double low, double high, double *from, double *to)
+{
+    if (step == 0) {
+        if (start < low || start > high)
+            *to = -1;
+        return;
+    }
+    const double a = (low - start) / step;
+    const double b = (high - start) / step;
+    *from = fmax(*from, fmin(a, b));
+    *to = fmin(*to, fmax(a, b));
+}
+
+/* The part of a line that is in the box (Liang and Barsky 1984). *at: where the last one ended. */
+static void put_clipped(wo_svg *svg, double x, double y, double x2, double y2, double at[2])
+{
+    double from = 0;
+    double to = 1;
+    narrow(x, x2 - x, svg->left, svg->right, &from, &to);
+    narrow(y, y2 - y, svg->top, svg->bottom, &from, &to);
+    if (from > to)
+        return;
+    const double begin[2] = {x + from * (x2 - x), y + from * (y2 - y)};
+    if (begin[0] != at[0] || begin[1] != at[1])
+        put_point(svg, "M", begin[0], begin[1]);
+    at[0] = to < 1 ? x + to * (x2 - x) : x2;
+    at[1] = to < 1 ? y + to * (y2 - y) : y2;
+    put_point(svg, "L", at[0], at[1]);
+}
+
 void wo_svg_path(wo_svg *svg, const wo_pen *pen, const char *fill, const double *x, const double *y,
                  int count)
 {
@@ -150,9 +187,12 @@ void wo_svg_path(wo_svg *svg, const wo_pen *pen, const char *fill, const double 
     put_pen(svg, pen);
     put(svg, " d=\"");
     bool inside = false;
+    double at[2] = {NAN, NAN};
     for (int i = 0; i < count; i++) {
         const bool good = isfinite(x[i]) && isfinite(y[i]);
-        if (good)
+        if (good && svg->clipped && !fill && inside)
+            put_clipped(svg, x[i - 1], y[i - 1], x[i], y[i], at);
+        else if (good && (fill || !svg->clipped))
             put_point(svg, inside ? "L" : "M", x[i], y[i]);
         inside = good;
     }
@@ -167,7 +207,7 @@ void wo_svg_dots(wo_svg *svg, const char *colour, double diameter, const double 
     put_pen(svg, &pen);
     put(svg, " d=\"");
     for (int i = 0; i < count; i++)
-        if (isfinite(x[i]) && isfinite(y[i])) {
+        if (isfinite(x[i]) && isfinite(y[i]) && in_box(svg, x[i], y[i])) {
             put_point(svg, "M", x[i], y[i]);
             put(svg, "h0");
         }
@@ -207,23 +247,16 @@ void wo_svg_text_up(wo_svg *svg, double x, double y, double size, wo_anchor anch
 
 void wo_svg_clip_begin(wo_svg *svg, wo_box box)
 {
-    char name[32];
-    snprintf(name, sizeof name, "clip%d", svg->clips++);
-    put(svg, "<clipPath id=\"");
-    put(svg, name);
-    put(svg, "\"><rect");
-    put_attribute(svg, "x", box.x);
-    put_attribute(svg, "y", box.y);
-    put_attribute(svg, "width", box.w);
-    put_attribute(svg, "height", box.h);
-    put(svg, "/></clipPath>\n<g clip-path=\"url(#");
-    put(svg, name);
-    put(svg, ")\">\n");
+    svg->clipped = true;
+    svg->left = box.x;
+    svg->top = box.y;
+    svg->right = box.x + box.w;
+    svg->bottom = box.y + box.h;
 }
 
 void wo_svg_clip_end(wo_svg *svg)
 {
-    put(svg, "</g>\n");
+    svg->clipped = false;
 }
 
 wo_status wo_svg_finish(wo_svg *svg, wo_error *error)

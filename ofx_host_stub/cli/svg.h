@@ -13,8 +13,9 @@
 typedef struct wo_svg {
     char *text;
     size_t length, size;
-    int clips;   /* clip boxes so far */
     bool failed; /* out of memory */
+    bool clipped;
+    double left, top, right, bottom; /* of the clip box */
 } wo_svg;
 
 typedef struct wo_pen {
@@ -41,7 +42,8 @@ void wo_svg_text(wo_svg *svg, double x, double y, double size, wo_anchor anchor,
 /* Reads upwards. */
 void wo_svg_text_up(wo_svg *svg, double x, double y, double size, wo_anchor anchor,
                     const char *text);
-/* What is drawn until wo_svg_clip_end is seen inside box only. */
+/* Open paths and dots until wo_svg_clip_end are cut at the box, in numbers: not every viewer knows
+   clip paths. Filled paths and text are not. */
 void wo_svg_clip_begin(wo_svg *svg, wo_box box);
 void wo_svg_clip_end(wo_svg *svg);
 

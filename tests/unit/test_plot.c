@@ -139,16 +139,40 @@ static void test_drawing(void **state)
     assert_int_equal(occurrences(svg.text, "<g "), occurrences(svg.text, "</g>"));
     assert_int_equal(occurrences(svg.text, "<text"), occurrences(svg.text, "</text>"));
     assert_int_equal(occurrences(svg.text, "h0"), 4); /* the infinite point and the NaN are out */
-    /* The curve: two points, a gap, one point, a gap, one point far outside. */
+    /* The curve: two points, a gap, one point, a gap, one point far outside: one line. */
     const char *const curve = strstr(svg.text, "stroke-dasharray=\"4 2\" d=\"M");
     assert_non_null(curve);
     char line[256];
     snprintf(line, sizeof line, "%.*s", (int)strcspn(curve, "\n"), curve);
-    assert_int_equal(occurrences(line, "M"), 3);
+    assert_int_equal(occurrences(line, "M"), 1);
     assert_int_equal(occurrences(line, "L"), 1);
     wo_svg_free(&svg);
     wo_svg_free(&again);
     assert_null(svg.text);
+}
+
+/* Open paths and dots end at the clip box. */
+static void test_clip(void **state)
+{
+    (void)state;
+    wo_svg svg;
+    const wo_pen pen = {"#000000", 1, NULL};
+    const double x[] = {-10, 5, 20, 20, 5, 5}, y[] = {5, 5, 20, 50, 50, 8};
+    wo_svg_begin(&svg, 100, 100, "clip");
+    wo_svg_clip_begin(&svg, (wo_box){0, 0, 10, 10});
+    wo_svg_path(&svg, &pen, NULL, x, y, 6);
+    wo_svg_line(&svg, &pen, -5, -5, 50, 50);
+    wo_svg_line(&svg, &pen, -5, 5, 5, -50);
+    wo_svg_dots(&svg, "#000000", 2, x, y, 6);
+    wo_svg_clip_end(&svg);
+    wo_svg_line(&svg, &pen, -5, 1, 50, 1);
+    assert_int_equal(wo_svg_finish(&svg, NULL), WO_OK);
+    assert_non_null(strstr(svg.text, "d=\"M0 5L5 5L10 10M5 10L5 8\""));
+    assert_non_null(strstr(svg.text, "d=\"M0 0L10 10\""));
+    assert_non_null(strstr(svg.text, "d=\"\""));
+    assert_non_null(strstr(svg.text, "d=\"M5 5h0M5 8h0\""));
+    assert_non_null(strstr(svg.text, "d=\"M-5 1L50 1\""));
+    wo_svg_free(&svg);
 }
 
 static void test_files(void **state)
@@ -184,7 +208,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_ticks),   cmocka_unit_test(test_ticks_degenerate),
         cmocka_unit_test(test_numbers), cmocka_unit_test(test_axes),
-        cmocka_unit_test(test_drawing), cmocka_unit_test(test_files),
+        cmocka_unit_test(test_drawing), cmocka_unit_test(test_clip),
+        cmocka_unit_test(test_files),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
