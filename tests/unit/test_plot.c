@@ -156,18 +156,18 @@ static void test_clip(void **state)
 {
     (void)state;
     wo_svg svg;
-    const wo_pen pen = {"#000000", 1, NULL};
+    const wo_pen solid = {"#000000", 1, NULL};
     const double x[] = {-10, 5, 20, 20, 5, 5}, y[] = {5, 5, 20, 50, 50, 8};
     wo_svg_begin(&svg, 100, 100, "clip");
     wo_svg_clip_begin(&svg, (wo_box){0, 0, 10, 10});
-    wo_svg_path(&svg, &pen, NULL, x, y, 6);
-    wo_svg_line(&svg, &pen, -5, -5, 50, 50);
-    wo_svg_line(&svg, &pen, -5, 5, 5, -50);
+    wo_svg_path(&svg, &solid, NULL, x, y, 6);
+    wo_svg_line(&svg, &solid, -5, -5, 50, 50);
+    wo_svg_line(&svg, &solid, -5, 5, 5, -50);
     wo_svg_dots(&svg, "#000000", 2, x, y, 6);
     wo_svg_clip_end(&svg);
-    wo_svg_line(&svg, &pen, -5, 1, 50, 1);
+    wo_svg_line(&svg, &solid, -5, 1, 50, 1);
     assert_int_equal(wo_svg_finish(&svg, NULL), WO_OK);
-    assert_non_null(strstr(svg.text, "d=\"M0 5L5 5L10 10M5 10L5 8\""));
+    assert_non_null(strstr(svg.text, "d=\"M0 5L5 5L10 5M5 10L5 8\""));
     assert_non_null(strstr(svg.text, "d=\"M0 0L10 10\""));
     assert_non_null(strstr(svg.text, "d=\"\""));
     assert_non_null(strstr(svg.text, "d=\"M5 5h0M5 8h0\""));
