@@ -167,7 +167,7 @@ static void test_clip(void **state)
     wo_svg_clip_end(&svg);
     wo_svg_line(&svg, &solid, -5, 1, 50, 1);
     assert_int_equal(wo_svg_finish(&svg, NULL), WO_OK);
-    assert_non_null(strstr(svg.text, "d=\"M0 5L5 5L10 5M5 10L5 8\""));
+    assert_non_null(strstr(svg.text, "d=\"M0 5L5 5L10 10M5 10L5 8\""));
     assert_non_null(strstr(svg.text, "d=\"M0 0L10 10\""));
     assert_non_null(strstr(svg.text, "d=\"\""));
     assert_non_null(strstr(svg.text, "d=\"M5 5h0M5 8h0\""));
