@@ -18,7 +18,7 @@ static const wo_option options[] = {
     {"--wavelength", NULL, "NM", "Of the first-order data and the focus, 300..2500; 587.56.",
      false},
     {"--meridian", NULL, "x|y",
-     "Which section's first-order data; they differ for anamorphic lenses. y.", false},
+     "Which section's first-order data; they differ for anamorphic lenses. x.", false},
     {"--fnumber", NULL, "N", "Stop the iris down; as open as it gets.", false},
     {"--focus", NULL, "M",
      "Distance of the object from the entrance pupil in metres; infinity. The sensor stands in the "
@@ -260,7 +260,7 @@ static int show(const wo_args *args)
     if (wo_lens_view_make(&lens, &setup, &view, &error) != WO_OK ||
         draw(args, &view, &drawn, &error) != WO_OK)
         return wo_failure(&error);
-    const wo_first_order *const first = &view.first[meridian && *meridian == 'x' ? 0 : 1];
+    const wo_first_order *const first = &view.first[meridian && *meridian == 'y' ? 1 : 0];
     if (wo_args_count(args, "--json"))
         print_json(&view, first);
     else if (drawn == 0)
