@@ -131,7 +131,8 @@ static wo_march_view view_of(const wo_lens_rays *rays, const wo_ray_tile *tile)
     return view;
 }
 
-/* Colour straight through the pixel, for a pixel all of whose rays were lost. */
+/* Colour straight through the pixel, for a pixel all of whose rays were lost, or all of one
+   colour's in a corner that few rays reach. */
 static void straight_through(const wo_march_view *view, ptrdiff_t at, float c[4])
 {
     float best = -INFINITY;
@@ -151,10 +152,14 @@ static void store(const wo_stack *stack, const wo_march_view *view, const wo_mar
         const int x = run_index + WO_PHASES * i;
         float *c = pixels->c[row][x];
         const float all = sums->weight[3][i];
-        if (!(all > 0))
+        bool lost = !(all > 0);
+        for (int k = 0; k < 3; k++)
+            lost |= !(sums->weight[k][i] > 0);
+        if (lost)
             straight_through(view, wo_stack_at(stack, rect.x1 + x, rect.y1 + row), c);
-        for (int k = 0; k < 4 && all > 0; k++)
-            c[k] = sums->weight[k][i] > 0 ? sums->c[k][i] / sums->weight[k][i] : 0;
+        for (int k = 0; k < 4; k++)
+            if (sums->weight[k][i] > 0)
+                c[k] = sums->c[k][i] / sums->weight[k][i];
         c[3] = fminf(c[3], 1);
         pixels->guessed[row][x] = sums->guessed[i];
     }

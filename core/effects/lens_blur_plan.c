@@ -115,7 +115,10 @@ static void note_layers(wo_plan *plan, const wo_sheet sheets[SHEETS], int64_t sp
                             "sheets");
     if (plan->setup.has_depth && !sheets[HIDDEN].any)
         wo_report_leave_out(report, "sheet of hidden surfaces", "nothing is hidden", 1, "sheets");
-    if (plan->highlights.count == 0)
+    if (!plan->lens.connect)
+        wo_report_leave_out(report, "connections to highlights",
+                            "this lens has no closed form: rays alone find them", 0, "");
+    else if (plan->highlights.count == 0)
         wo_report_leave_out(report, "connections to highlights", "no blurred highlight", 0, "");
 }
 
