@@ -25,12 +25,13 @@ wo_lens_model wo_zonal_lens_model(const wo_zonal_lens *lens)
 }
 
 /* Welford 1986, 6.5: transverse aberrations of third order. Distortion is left out: the field point
-   is where the chief ray says. */
+   is where the chief ray says. An object at tangent h of the picture sends its light with the slope
+   -h. */
 static bool seidel_ray(const void *self, double h, const double u[2], double nm, wo_model_ray *ray)
 {
     const wo_seidel_lens *lens = self;
     const double *s = lens->sums.s;
-    const double f = h / lens->tangent;
+    const double f = -h / lens->tangent;
     const double r2 = u[0] * u[0] + u[1] * u[1];
     const double along = s[0] * r2 * u[0] + s[1] * f * (3 * u[0] * u[0] + u[1] * u[1]) +
                          (3 * s[2] + s[3]) * f * f * u[0];

@@ -151,11 +151,12 @@ LENS_TEST(doublet_thorlabs_ac508_250a)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(dgauss_codev_100_f2),      cmocka_unit_test(biotar_zeiss_100_f14),
-        cmocka_unit_test(cooke_triplet_50_f5),      cmocka_unit_test(tessar_brendel_100_f28),
-        cmocka_unit_test(petzval_kodak_100),        cmocka_unit_test(telephoto_laikin_f56),
-        cmocka_unit_test(retrofocus_nikon_100_f28), cmocka_unit_test(masterprime_zeiss_asph),
-        cmocka_unit_test(zoom_canon_70_200_at_72),  cmocka_unit_test(doublet_thorlabs_ac508_250a),
+        cmocka_unit_test(rays_of_one_family),          cmocka_unit_test(dgauss_codev_100_f2),
+        cmocka_unit_test(biotar_zeiss_100_f14),        cmocka_unit_test(cooke_triplet_50_f5),
+        cmocka_unit_test(tessar_brendel_100_f28),      cmocka_unit_test(petzval_kodak_100),
+        cmocka_unit_test(telephoto_laikin_f56),        cmocka_unit_test(retrofocus_nikon_100_f28),
+        cmocka_unit_test(masterprime_zeiss_asph),      cmocka_unit_test(zoom_canon_70_200_at_72),
+        cmocka_unit_test(doublet_thorlabs_ac508_250a),
     };
     return cmocka_run_group_tests_name("lens_table", tests, NULL, NULL);
 }
