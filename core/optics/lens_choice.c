@@ -269,6 +269,11 @@ static wo_status choose(const wo_lens_choice *c, wo_prescription *lens, wo_chose
 wo_status wo_lens_choose(const wo_lens_choice *choice, wo_chosen_lens *out, wo_error *error)
 {
     wo_prescription lens; /* some 20 kB; nothing keeps it */
+    if (!(choice->focal_mm > 0 && isfinite(choice->focal_mm)) || isinf(choice->f_number))
+        return wo_fail(error, WO_ERR_RANGE,
+                       "a lens of %g mm at f/%g: must be a focal length above 0 and a finite "
+                       "f-number",
+                       choice->focal_mm, choice->f_number);
     WO_TRY(choose(choice, &lens, out, error));
     if (choice->best_focus)
         out->model.refocus = wo_lens_model_best_focus(&out->model);

@@ -327,6 +327,11 @@ wo_status wo_exact_lens_make(const wo_prescription *lens, double f_number, doubl
         return wo_fail(error, WO_ERR_RANGE,
                        "%s gives no real image of an object at %g dioptres: focus farther away",
                        lens->name, vf);
+    if (vf > 0 && 1e3 / vf <= first.ep_z)
+        return wo_fail(error, WO_ERR_RANGE,
+                       "%s focused at %g dioptres, %g mm in front of its entrance pupil: that is "
+                       "inside of the lens, focus farther away than %g mm",
+                       lens->name, vf, 1e3 / vf, first.ep_z);
     const double full = sqrt(out->reference.surface[lens->stop].semi2);
     out->f_number = f_number > first.fno ? f_number : first.fno;
     out->iris = full * first.fno / out->f_number;

@@ -62,9 +62,11 @@ static inline bool is_spherical(const wo_system *system)
     return is_round(system);
 }
 
-/* Passed prescriptions of a few surfaces; the last entry of a row is the medium behind it. */
+/* A surface of a lens made for a test. */
 typedef struct test_surface {
-    double radius, thickness, index, semi;
+    double radius, thickness;
+    double index; /* of the medium behind */
+    double semi;
     bool stop;
 } test_surface;
 
