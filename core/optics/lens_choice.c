@@ -26,12 +26,13 @@ wo_lens_model wo_zonal_lens_model(const wo_zonal_lens *lens)
 }
 
 /* Welford 1986, 6.5: transverse aberrations of third order. Distortion is left out: the field point
-   is where the chief ray says. */
+   is where the chief ray says. An object at tangent h of the picture sends its light with the slope
+   -h. */
 static bool seidel_ray(const void *self, double h, const double u[2], double nm, wo_model_ray *ray)
 {
     const wo_seidel_lens *lens = self;
     const double *s = lens->sums.s;
-    const double f = h / lens->tangent;
+    const double f = -h / lens->tangent;
     const double r2 = u[0] * u[0] + u[1] * u[1];
     const double along = s[0] * r2 * u[0] + s[1] * f * (3 * u[0] * u[0] + u[1] * u[1]) +
                          (3 * s[2] + s[3]) * f * f * u[0];
@@ -276,6 +277,11 @@ static wo_status choose(const wo_lens_choice *c, wo_prescription *lens, wo_chose
 wo_status wo_lens_choose(const wo_lens_choice *choice, wo_chosen_lens *out, wo_error *error)
 {
     wo_prescription lens; /* some 20 kB; nothing keeps it */
+    if (!(choice->focal_mm > 0 && isfinite(choice->focal_mm)) || isinf(choice->f_number))
+        return wo_fail(error, WO_ERR_RANGE,
+                       "a lens of %g mm at f/%g: must be a focal length above 0 and a finite "
+                       "f-number",
+                       choice->focal_mm, choice->f_number);
     WO_TRY(choose(choice, &lens, out, error));
     if (choice->best_focus)
         out->model.refocus = wo_lens_model_best_focus(&out->model);

@@ -139,6 +139,28 @@ static bool aim(const wo_exact_lens *lens, const wo_system *system, const double
     return false;
 }
 
+/* The same for a ray whose slope is that of the middle of the iris so far. Far out a second ray
+   from s may land at the same place, near to grazing some surface; where Newton's method finds that
+   one (its jacobian is negative) or none, the way there goes over points between. */
+static bool aim_from_middle(const wo_exact_lens *lens, const wo_system *system, const double s[2],
+                            double x, double slope[2], double *jacobian, beam *landed)
+{
+    enum { STEPS = 8 };
+    double direct[2] = {slope[0], slope[1]};
+    if (aim(lens, system, s, x, direct, jacobian, landed) && *jacobian > 0) {
+        slope[0] = direct[0];
+        slope[1] = direct[1];
+        return true;
+    }
+    for (int i = 1; i <= STEPS; i++) {
+        const double part = (double)i / STEPS;
+        const double between[2] = {part * s[0], part * s[1]};
+        if (!aim(lens, system, between, x, slope, jacobian, landed) || !(*jacobian > 0))
+            return false;
+    }
+    return true;
+}
+
 /* Squares of the relative radii at the surfaces that clip. */
 static bool clip_of(const wo_exact_lens *lens, const wo_system *system, const double s[2],
                     const double slope[2], double clip[WO_MODEL_CLIPS])
@@ -183,7 +205,7 @@ static bool exact_ray(const void *self, double h, const double u[2], double nm, 
     const double x = b.p[0];
     const double s[2] = {lens->iris * u[0], lens->iris * u[1]};
     double jacobian = 1;
-    if (!aim(lens, system, s, x, slope, &jacobian, &b))
+    if (!aim_from_middle(lens, system, s, x, slope, &jacobian, &b))
         return false;
     beam out;
     if (!look(lens, system, s, slope, &out))
@@ -240,7 +262,7 @@ static void choose_clips(wo_exact_lens *lens)
             const double s[2] = {r * cos(2.399963 * k), r * sin(2.399963 * k)};
             double aimed[2] = {slope[0], 0};
             double jacobian;
-            if (aim(lens, &lens->reference, s, x, aimed, &jacobian, &b))
+            if (aim_from_middle(lens, &lens->reference, s, x, aimed, &jacobian, &b))
                 masks[count++] = blocked_by(lens, s, aimed);
         }
     }
@@ -305,6 +327,11 @@ wo_status wo_exact_lens_make(const wo_prescription *lens, double f_number, doubl
         return wo_fail(error, WO_ERR_RANGE,
                        "%s gives no real image of an object at %g dioptres: focus farther away",
                        lens->name, vf);
+    if (vf > 0 && 1e3 / vf <= first.ep_z)
+        return wo_fail(error, WO_ERR_RANGE,
+                       "%s focused at %g dioptres, %g mm in front of its entrance pupil: that is "
+                       "inside of the lens, focus farther away than %g mm",
+                       lens->name, vf, 1e3 / vf, first.ep_z);
     const double full = sqrt(out->reference.surface[lens->stop].semi2);
     out->f_number = f_number > first.fno ? f_number : first.fno;
     out->iris = full * first.fno / out->f_number;
