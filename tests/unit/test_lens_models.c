@@ -290,7 +290,6 @@ static void pencils_of_a_perfect_lens(void **state)
                                                  .px_per_dioptre = k,
                                                  .max_reach = 4000,
                                                  .v_limit = 3,
-                                                 .half_field = 0.45,
                                                  .count = 700,
                                                  .wavelengths = 7,
                                                  .seed = 5};
