@@ -232,7 +232,7 @@ static wo_status choose(const wo_lens_choice *c, wo_prescription *lens, wo_chose
 {
     const wo_zonal_lens zonal = {.radius = 0.5e-3 * c->focal_mm / c->f_number,
                                  .half_field = c->half_field,
-                                 .cats_eye = c->cats_eye / c->half_field};
+                                 .cats_eye = c->half_field > 0 ? c->cats_eye / c->half_field : 0};
     out->f_number = c->f_number;
     switch (c->kind) {
     case WO_LENS_THIN:

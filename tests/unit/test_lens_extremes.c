@@ -375,7 +375,7 @@ static void numbers_that_are_none(void **state)
                              ray.a[0], ray.b[0]);
             }
     wo_lens_choice choice = {
-        .kind = WO_LENS_THIN, .focal_mm = 50, .f_number = 5, .nm = d_line, .lines = 1};
+        .kind = WO_LENS_KIND_COUNT, .focal_mm = 50, .f_number = 5, .nm = d_line, .lines = 1};
     wo_chosen_lens lens;
     wo_error error = {WO_OK, ""};
     assert_int_equal(wo_lens_choose(&choice, &lens, &error), WO_ERR_ARGUMENT);
