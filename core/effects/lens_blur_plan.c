@@ -381,12 +381,15 @@ int wo_lens_blur_plan_print(const wo_plan *plan, char *buffer, size_t size)
         plan->params.focal_length, plan->params.f_stop, plan->params.focus_distance, s->lens.k);
     if (plan->table) {
         const wo_table_facts *f = &plan->facts;
+        const bool real =
+            plan->params.lens == WO_LENS_PRESCRIPTION || plan->params.lens == WO_LENS_SEIDEL;
+        const char *design = real ? wo_lens_name_at((size_t)plan->params.lens_design) : "";
         add(&p,
-            "            %s, f/%.4g reached; %d wavelengths (colours part by %.2f px), aberrations "
-            "up "
-            "to %.2f px in the plane of focus\n",
-            wo_lens_blur_lens_labels[plan->params.lens], plan->f_number, f->wavelengths,
-            f->colour_px, f->aberration_px);
+            "            %s%s%s, f/%.4g reached; %d wavelengths (colours part by %.2f px), "
+            "aberrations "
+            "up to %.2f px in the plane of focus\n",
+            wo_lens_blur_lens_labels[plan->params.lens], design[0] ? " " : "", design,
+            plan->f_number, f->wavelengths, f->colour_px, f->aberration_px);
         add(&p,
             "table       degree %d, %d field points; %.4f px RMS from the exact rays; lit to %.1f "
             "degrees\n",
