@@ -236,6 +236,9 @@ static wo_status choose(const wo_lens_choice *c, wo_prescription *lens, wo_chose
     out->f_number = c->f_number;
     switch (c->kind) {
     case WO_LENS_THIN:
+        if (!(c->f_number > 0))
+            return wo_fail(error, WO_ERR_RANGE, "a thin lens at f/%g: must be above 0",
+                           c->f_number);
         out->as.zonal = zonal;
         out->as.zonal.diagram = (wo_diagram){.zones = 2, .lines = 1, .nm = {WO_NM_D}};
         out->model = wo_zonal_lens_model(&out->as.zonal);

@@ -67,6 +67,15 @@ static void perfect_diagram(void **state)
     assert_near(wo_lens_model_best_focus(&lens.model), 0, 1e-12);
 }
 
+static void thin_lens(void **state)
+{
+    (void)state;
+    wo_chosen_lens lens;
+    const wo_lens_choice choice = choice_of(WO_LENS_THIN, 1.4);
+    choose(&choice, &lens);
+    check_thin(&lens.model, 0.05 / 2.8, 0.3, 1e-12, 1e-9);
+}
+
 static void diagram_without_residual(void **state)
 {
     (void)state;
@@ -341,6 +350,7 @@ static void pencils_of_a_perfect_lens(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(thin_lens),
         cmocka_unit_test(perfect_diagram),
         cmocka_unit_test(diagram_without_residual),
         cmocka_unit_test(thick_lens_of_one_wavelength),
