@@ -70,7 +70,7 @@ wo_status wo_lens_blur_prepare(const wo_lens_blur_params *params, const wo_geome
             radius, fmax(at_infinity, fmax(wo_thin_lens_coc(&setup->lens, 1 / params->depth_near),
                                            wo_thin_lens_coc(&setup->lens, 1 / params->depth_far))));
     setup->radius = radius;
-    setup->reach = params->lens == WO_LENS_THIN ? radius : 1.25 * radius + 0.04 * width;
+    setup->reach = params->lens == WO_LENS_THIN ? radius : 1.25 * radius + 0.06 * width;
     setup->v_max = radius / setup->lens.k;
     setup->v_min = -setup->v_max;
     if (setup->has_depth && radius >= WO_SHARP_PX) {

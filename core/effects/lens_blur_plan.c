@@ -378,7 +378,8 @@ int wo_lens_blur_plan_print(const wo_plan *plan, char *buffer, size_t size)
     add(&p, "window      %d,%d .. %d,%d (%d x %d px)\n", w.x1, w.y1, w.x2, w.y2, wo_rect_width(w),
         wo_rect_height(w));
     add(&p, "lens        %g mm f/%g, focus at %g m; blur radius %.4g px per dioptre\n",
-        plan->params.focal_length, plan->params.f_stop, plan->params.focus_distance, s->lens.k);
+        plan->params.focal_length, plan->params.f_stop, plan->params.focus_distance,
+        plan->lens.px_per_dioptre);
     if (plan->table) {
         const wo_table_facts *f = &plan->facts;
         const bool real =

@@ -58,8 +58,7 @@ static void make_rays(const wo_table_pencils *p, int line, double h, double c, d
         const float a2 = (sf * ax[i] + cf * ay[i]) * fy;
         const float b1 = (cf * bx[i] - sf * by[i]) * fx;
         const float b2 = (sf * bx[i] + cf * by[i]) * fy;
-        const bool near =
-            fabsf(a1) + v_limit * fabsf(b1) <= reach && fabsf(a2) + v_limit * fabsf(b2) <= reach;
+        const bool near = sqrtf(a1 * a1 + a2 * a2) + v_limit * sqrtf(b1 * b1 + b2 * b2) <= reach;
         ax[i] = near ? a1 : 0;
         ay[i] = near ? a2 : 0;
         bx[i] = near ? b1 : 0;
@@ -169,13 +168,9 @@ static void survey(wo_table_pencils *p, wo_table_facts *facts)
                 if (!(o[4][i] > 0))
                     continue;
                 seen++;
-                for (int k = 0; k < 2; k++)
-                    if (f * (fabs((double)o[k][i]) +
-                             p->options.v_limit * fabs((double)o[2 + k][i])) >
-                        p->options.max_reach) {
-                        beyond++;
-                        break;
-                    }
+                beyond += f * (hypot((double)o[0][i], (double)o[1][i]) +
+                               p->options.v_limit * hypot((double)o[2][i], (double)o[3][i])) >
+                          p->options.max_reach;
                 a_max = fmax(a_max, f * hypot((double)o[0][i], (double)o[1][i]));
                 b_max = fmax(b_max, f * hypot((double)o[2][i], (double)o[3][i]));
                 double d[4];
