@@ -59,71 +59,19 @@ wo_lens_model wo_seidel_lens_model(const wo_seidel_lens *lens)
     return (wo_lens_model){lens, 0, lens->half_field, WO_NM_D, 0, seidel_ray};
 }
 
-bool wo_lens_model_ray(const wo_lens_model *model, double h, const double u[2], double nm,
-                       wo_model_ray *ray)
-{
-    if (!model->ray(model->self, h, u, nm, ray))
-        return false;
-    for (int k = 0; k < 2; k++)
-        ray->a[k] += ray->b[k] * model->refocus;
-    return true;
-}
-
-double wo_lens_model_best_focus(const wo_lens_model *model)
-{
-    enum { RINGS = 64 };
-    double ab = 0;
-    double bb = 0;
-    for (int i = 0; i < RINGS; i++) {
-        const double u[2] = {sqrt((i + 0.5) / RINGS), 0};
-        wo_model_ray ray = {.weight = 0};
-        if (!model->ray(model->self, 0, u, model->reference_nm, &ray))
-            continue;
-        ab += ray.weight * ray.a[0] * ray.b[0];
-        bb += ray.weight * ray.b[0] * ray.b[0];
-    }
-    return bb > 0 ? -ab / bb : 0;
-}
-
-/* Power in dioptres at a wavelength beyond that at the d line. */
-static double power_shift(const wo_prescription *lens, double nm)
+static wo_first_order order_at(const wo_prescription *lens, double nm)
 {
     wo_system system;
-    wo_first_order reference;
     wo_first_order order;
-    wo_system_make(lens, WO_NM_D, &system);
-    wo_system_first_order(&system, WO_MERIDIAN_X, &reference);
     wo_system_make(lens, nm, &system);
     wo_system_first_order(&system, WO_MERIDIAN_X, &order);
-    return 1e3 / order.efl - 1e3 / reference.efl;
-}
-
-/* The same for the place of the image of infinity, which is what shows in a real lens: the vergence
-   behind the sensor plane's shift, seen from the scene. */
-static double image_shift(const wo_prescription *lens, double nm)
-{
-    wo_system system;
-    wo_first_order reference;
-    wo_first_order order;
-    wo_system_make(lens, WO_NM_D, &system);
-    wo_system_first_order(&system, WO_MERIDIAN_X, &reference);
-    wo_system_make(lens, nm, &system);
-    wo_system_first_order(&system, WO_MERIDIAN_X, &order);
-    return -1e3 * (order.bfd - reference.bfd) / (reference.efl * reference.efl);
+    return order;
 }
 
 static wo_status check_lens(const wo_prescription *lens, wo_first_order *order, wo_error *error)
 {
-    WO_TRY(wo_prescription_validate(lens, error));
-    for (int i = 0; i < lens->count; i++)
-        if (lens->surface[i].meridian != WO_MERIDIAN_BOTH)
-            return wo_fail(error, WO_ERR_UNSUPPORTED,
-                           "%s has cylinders (surface %d): only lenses of revolution can be put "
-                           "behind a picture",
-                           lens->name, i + 1);
-    wo_system system;
-    wo_system_make(lens, WO_NM_D, &system);
-    wo_system_first_order(&system, WO_MERIDIAN_X, order);
+    WO_TRY(wo_lens_model_check(lens, error));
+    *order = order_at(lens, WO_NM_D);
     if (!(order->efl > 0) || !isfinite(order->efl) || !isfinite(order->ep_z) || !(order->fno > 0))
         return wo_fail(
             error, WO_ERR_UNSUPPORTED,
@@ -144,17 +92,15 @@ wo_status wo_seidel_lens_make(const wo_prescription *lens, double f_number, doub
     const double ep_d = order.efl / n;
     wo_system system;
     wo_system_make(lens, WO_NM_D, &system);
-    *out = (wo_seidel_lens){.radius = 0.5e-3 * ep_d,
-                            .half_field = half_field,
-                            .efl = order.efl,
-                            .tangent = tan(0.2),
-                            .lines = lines};
+    *out = (wo_seidel_lens){
+        .radius = 0.5e-3 * ep_d, .half_field = half_field, .tangent = tan(0.2), .lines = lines};
     wo_system_seidel(&system, ep_d, 0.2 * (180 / 3.14159265358979323846), &out->sums);
     /* n' u' = -ep_d / (2 efl); the error on the sensor over efl is the tangent in front. */
-    out->scale = -1 / (ep_d / order.efl) / order.efl;
+    out->scale = -1 / ep_d;
     for (int i = 0; i < lines; i++) {
         out->nm[i] = nm[i];
-        out->shift[i] = image_shift(lens, nm[i]);
+        /* Where the image of infinity lies behind that of the d line, seen from the scene. */
+        out->shift[i] = -1e3 * (order_at(lens, nm[i]).bfd - order.bfd) / (order.efl * order.efl);
     }
     return WO_OK;
 }
@@ -217,13 +163,14 @@ static wo_status make_design(const wo_lens_choice *c, wo_prescription *lens, wo_
     return WO_OK;
 }
 
-/* The same shift for all zones. */
+/* The same shift for all zones: how much stronger the lens is than at the d line. */
 static void flat_diagram(const wo_prescription *lens, const double *nm, int lines, wo_diagram *out)
 {
+    const double power = 1e3 / order_at(lens, WO_NM_D).efl;
     *out = (wo_diagram){.zones = 2, .lines = lines};
     for (int i = 0; i < lines; i++) {
         out->nm[i] = nm[i];
-        out->shift[i][0] = out->shift[i][1] = power_shift(lens, nm[i]);
+        out->shift[i][0] = out->shift[i][1] = 1e3 / order_at(lens, nm[i]).efl - power;
     }
 }
 

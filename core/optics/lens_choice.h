@@ -65,7 +65,6 @@ wo_lens_model wo_zonal_lens_model(const wo_zonal_lens *lens);
 typedef struct wo_seidel_lens {
     double radius; /* m */
     double half_field;
-    double efl;   /* mm */
     double scale; /* 1 / (2 n' u') */
     wo_seidel sums;
     double tangent; /* that the sums belong to */
@@ -95,7 +94,7 @@ typedef struct wo_chosen_lens {
 } wo_chosen_lens;
 
 /* WO_LENS_THIN has faster pencils of its own; as a model it is the perfect diagram. *out points
- * into itself: do not copy it. */
+   into itself: do not copy it. */
 WO_NODISCARD wo_status wo_lens_choose(const wo_lens_choice *choice, wo_chosen_lens *out,
                                       wo_error *error);
 

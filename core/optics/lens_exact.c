@@ -303,15 +303,9 @@ wo_status wo_exact_lens_make(const wo_prescription *lens, double f_number, doubl
                              double half_field, const double *nm, int lines, wo_exact_lens *out,
                              wo_error *error)
 {
-    WO_TRY(wo_prescription_validate(lens, error));
+    WO_TRY(wo_lens_model_check(lens, error));
     if (lines < 1 || lines > WO_LINES_MAX)
         return wo_fail(error, WO_ERR_RANGE, "%d wavelengths: must be 1..%d", lines, WO_LINES_MAX);
-    for (int i = 0; i < lens->count; i++)
-        if (lens->surface[i].meridian != WO_MERIDIAN_BOTH)
-            return wo_fail(error, WO_ERR_UNSUPPORTED,
-                           "%s has cylinders (surface %d): only lenses of revolution can be put "
-                           "behind a picture",
-                           lens->name, i + 1);
     *out = (wo_exact_lens){.lines = lines, .vf = vf};
     wo_system_make(lens, WO_NM_D, &out->reference);
     for (int i = 0; i < lines; i++)

@@ -32,6 +32,9 @@ typedef struct wo_lens_model {
     bool (*ray)(const void *self, double h, const double u[2], double nm, wo_model_ray *ray);
 } wo_lens_model;
 
+/* Is it a valid prescription, and of revolution? */
+WO_NODISCARD wo_status wo_lens_model_check(const wo_prescription *lens, wo_error *error);
+
 /* The model's ray with its refocus. */
 bool wo_lens_model_ray(const wo_lens_model *model, double h, const double u[2], double nm,
                        wo_model_ray *ray);

@@ -13,7 +13,6 @@
 enum {
     SAMPLES = 320,     /* rays of one fit, in half the iris */
     VALIDATIONS = 400, /* random rays for the error */
-    OUTPUTS = 5,       /* ax bx weight | ay by */
     CLIP_SAMPLES_MIN = 40
 };
 

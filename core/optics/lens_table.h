@@ -16,9 +16,7 @@ enum {
     /* Terms s^i t^j of degree i + j <= d with even j, and with odd j. */
     WO_TABLE_EVEN_MAX = 72,
     WO_TABLE_ODD_MAX = 64,
-    WO_TABLE_CLIP_TERMS = 16,
-    WO_TABLE_COEFFICIENTS =
-        3 * WO_TABLE_EVEN_MAX + 2 * WO_TABLE_ODD_MAX + WO_MODEL_CLIPS * WO_TABLE_CLIP_TERMS
+    WO_TABLE_CLIP_TERMS = 16
 };
 
 /* Polynomials at one field point and wavelength; rows of equal j one after the other, i rising. */

@@ -4,6 +4,7 @@
 #include "command.h"
 #include "footage.h"
 #include "json.h"
+#include "text_file.h"
 #include "threads.h"
 
 #include <errno.h>
@@ -204,25 +205,23 @@ static void print_set(FILE *file, const wo_footage *set, const char *folder)
     wo_json_close(&out);
 }
 
-static bool save_facts(const wo_footage *set, const char *folder)
+static wo_status save_facts(const wo_footage *set, const char *folder, wo_error *error)
 {
-    char path[4096];
-    snprintf(path, sizeof path, "%s/scene.json", folder);
-    FILE *const file = fopen(path, "w");
-    if (file) {
-        print_set(file, set, NULL);
-        const bool broken = ferror(file) != 0;
-        if (fclose(file) == 0 && !broken)
-            return true;
-    }
-    wo_message("%s: %s", path, strerror(errno));
-    return false;
+    char path[PATH_MAX];
+    const int used = snprintf(path, sizeof path, "%s/scene.json", folder);
+    if (used < 0 || (size_t)used >= sizeof path)
+        return wo_fail(error, WO_ERR_RANGE, "the path of the folder is too long");
+    wo_text_out out;
+    WO_TRY(wo_text_begin(&out, path, error));
+    print_set(out.file, set, NULL);
+    return wo_text_end(&out, error);
 }
 
 static int report(const wo_args *args, const wo_footage *set, const char *folder)
 {
-    if (!save_facts(set, folder))
-        return WO_EXIT_FAILURE;
+    wo_error error = {0};
+    if (save_facts(set, folder, &error) != WO_OK)
+        return wo_failure(&error);
     if (wo_args_count(args, "--json")) {
         print_set(stdout, set, folder);
         return WO_EXIT_OK;

@@ -2,12 +2,10 @@
 /* Copyright the WideOpen authors */
 #include "render_report.h"
 
-#include <errno.h>
-#include <limits.h>
+#include "text_file.h"
+
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 bool wo_record_begin(wo_record *record, wo_host_instance *instance, double time)
 {
@@ -201,33 +199,11 @@ void wo_record_write(const wo_record *record, wo_host *host, const wo_inputs *in
     wo_json_close(&json);
 }
 
-static wo_status save_failure(wo_error *error, const char *path, int number)
-{
-    return wo_fail(error, WO_ERR_IO, "cannot write the report %s: %s", path, strerror(number));
-}
-
-/* A file of its own is replaced at once; anything else that exists (a pipe, a link, a device) is
-   written into. */
 wo_status wo_record_save(const wo_record *record, wo_host *host, const wo_inputs *inputs,
                          const wo_error *failed, const char *path, wo_error *error)
 {
-    char name[PATH_MAX];
-    struct stat info;
-    const bool direct = lstat(path, &info) == 0 && !S_ISREG(info.st_mode);
-    const int length = direct ? snprintf(name, sizeof name, "%s", path)
-                              : snprintf(name, sizeof name, "%s.%ld.tmp", path, (long)getpid());
-    if (length < 0 || (size_t)length >= sizeof name)
-        return save_failure(error, path, ENAMETOOLONG);
-    FILE *const out = fopen(name, "wb");
-    if (!out)
-        return save_failure(error, path, errno);
-    wo_record_write(record, host, inputs, failed, out);
-    const bool complete = !ferror(out);
-    const bool closed = fclose(out) == 0;
-    if (complete && closed && (direct || rename(name, path) == 0))
-        return WO_OK;
-    const int number = errno;
-    if (!direct)
-        remove(name);
-    return save_failure(error, path, number);
+    wo_text_out out;
+    WO_TRY(wo_text_begin(&out, path, error));
+    wo_record_write(record, host, inputs, failed, out.file);
+    return wo_text_end(&out, error);
 }

@@ -3,8 +3,6 @@
 #include "text_file.h"
 
 #include <errno.h>
-#include <limits.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -41,25 +39,37 @@ wo_status wo_text_read(const char *path, size_t limit, char **text, size_t *leng
     return WO_OK;
 }
 
-wo_status wo_text_save(const char *path, const char *text, size_t length, wo_error *error)
+wo_status wo_text_begin(wo_text_out *out, const char *path, wo_error *error)
 {
-    char name[PATH_MAX];
     struct stat info;
-    const bool direct = lstat(path, &info) == 0 && !S_ISREG(info.st_mode);
-    const int used = direct ? snprintf(name, sizeof name, "%s", path)
-                            : snprintf(name, sizeof name, "%s.%ld.tmp", path, (long)getpid());
-    if (used < 0 || (size_t)used >= sizeof name)
+    out->path = path;
+    out->direct = lstat(path, &info) == 0 && !S_ISREG(info.st_mode);
+    const int used =
+        out->direct ? snprintf(out->name, sizeof out->name, "%s", path)
+                    : snprintf(out->name, sizeof out->name, "%s.%ld.tmp", path, (long)getpid());
+    if (used < 0 || (size_t)used >= sizeof out->name)
         return failure(error, "write", path, ENAMETOOLONG);
-    FILE *const out = fopen(name, "wb");
-    if (!out)
-        return failure(error, "write", path, errno);
-    const bool complete = fwrite(text, 1, length, out) == length;
+    out->file = fopen(out->name, "wb");
+    return out->file ? WO_OK : failure(error, "write", path, errno);
+}
+
+wo_status wo_text_end(wo_text_out *out, wo_error *error)
+{
     const int write_number = errno;
-    const bool closed = fclose(out) == 0;
-    if (complete && closed && (direct || rename(name, path) == 0))
+    const bool complete = !ferror(out->file);
+    const bool closed = fclose(out->file) == 0;
+    if (complete && closed && (out->direct || rename(out->name, out->path) == 0))
         return WO_OK;
     const int number = complete ? errno : write_number;
-    if (!direct)
-        remove(name);
-    return failure(error, "write", path, number);
+    if (!out->direct)
+        remove(out->name);
+    return failure(error, "write", out->path, number);
+}
+
+wo_status wo_text_save(const char *path, const char *text, size_t length, wo_error *error)
+{
+    wo_text_out out;
+    WO_TRY(wo_text_begin(&out, path, error));
+    fwrite(text, 1, length, out.file);
+    return wo_text_end(&out, error);
 }

@@ -27,7 +27,6 @@ static double time_table(const wo_lens_table *table, wo_table_function *eval)
         s[i] = (float)(r * cos(2.4 * i));
         t[i] = (float)(r * sin(2.4 * i));
     }
-    const wo_table_rays rays = {out[0], out[1], out[2], out[3], out[4]};
     double best = 1e30;
     for (int k = 0; k < REPEATS; k++) {
         const double start = wo_seconds();
@@ -40,7 +39,6 @@ static double time_table(const wo_lens_table *table, wo_table_function *eval)
         }
         best = fmin(best, wo_seconds() - start);
     }
-    (void)rays;
     return best / RAYS * 1e9;
 }
 
