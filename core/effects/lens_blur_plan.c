@@ -213,6 +213,7 @@ static wo_status make_table_lens(wo_plan *plan, wo_error *error)
     const wo_lens_blur_setup *s = &plan->setup;
     const wo_geometry *g = &plan->geometry;
     const wo_rect far = wo_rect_union(g->extent, g->format);
+    const int wavelengths = p->wavelengths < p->samples ? p->wavelengths : p->samples;
     wo_table_pencil_options options = {
         .aperture = &s->aperture,
         .focal_px = s->lens.focal_px,
@@ -225,14 +226,14 @@ static wo_status make_table_lens(wo_plan *plan, wo_error *error)
             0.5 * hypot(wo_rect_width(g->format), wo_rect_height(g->format) / g->pixel_stretch),
         .doors = {p->door_left, p->door_right, p->door_bottom, p->door_top},
         .count = p->samples,
-        .wavelengths = p->wavelengths,
+        .wavelengths = wavelengths,
         .seed = (uint32_t)p->seed,
     };
     const double dx = fmax(far.x2 - options.centre_x, options.centre_x - far.x1);
     const double dy = fmax(far.y2 - options.centre_y, options.centre_y - far.y1);
     const double corner = hypot(dx, dy / g->pixel_stretch) / s->lens.focal_px;
     wo_bands bands;
-    wo_bands_make(p->wavelengths, &bands);
+    wo_bands_make(wavelengths, &bands);
     const wo_lens_choice choice = {
         .kind = (wo_lens_kind)p->lens,
         .design = wo_lens_name_at((size_t)p->lens_design),
