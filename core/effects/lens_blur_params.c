@@ -27,8 +27,8 @@ static const char *const outputs[] = {"image", "coc", "depth", "rays", "error", 
 static const char *const output_labels[] = {
     "Image", "Circle of confusion", "Depth", "Rays", "Error", "Guessed", NULL};
 
-static const char *const methods[] = {"rays", "reference", NULL};
-static const char *const method_labels[] = {"Rays", "Reference", NULL};
+static const char *const methods[] = {"hybrid", "rays", "reference", NULL};
+static const char *const method_labels[] = {"Hybrid", "Rays", "Reference", NULL};
 static const char *const samplings[] = {"fixed", "adaptive", NULL};
 static const char *const sampling_labels[] = {"Fixed", "Adaptive", NULL};
 
