@@ -9,7 +9,7 @@ static const float rim = 2; /* px by which a dark line is wider than the line on
 
 /* Colours where the host names none. */
 static const OfxRGBAColourF own_inks[WO_OFX_INKS] = {
-    [WO_OFX_INK_RIM] = {0.0f, 0.0f, 0.0f, 0.6f},
+    [WO_OFX_INK_RIM] = {0.0f, 0.0f, 0.0f, 0.8f},
     [WO_OFX_INK_IDLE] = {0.85f, 0.85f, 0.85f, 1.0f},
     [WO_OFX_INK_PICKED] = {1.0f, 0.75f, 0.1f, 1.0f},
     [WO_OFX_INK_JOIN] = {0.4f, 0.8f, 1.0f, 1.0f},
@@ -103,7 +103,7 @@ void wo_ofx_canvas_lines(const wo_ofx_canvas *canvas, wo_ofx_ink ink, bool dashe
 
        -0-
       5   1
-       -6-       a digit is 5 px wide and 8 px high, and the next one 8 px further
+       -6-       a digit is 7 px wide and 12 px high, and the next one 11 px further
       4   2
        -3-
 */
@@ -111,8 +111,9 @@ static void digits(const wo_ofx_canvas *canvas, wo_ofx_ink ink, OfxPointD at, in
 {
     static const unsigned char strokes[10] = {0x3f, 0x06, 0x5b, 0x4f, 0x66,
                                               0x6d, 0x7d, 0x07, 0x7f, 0x6f};
-    static const unsigned char ends[7][4] = {{0, 8, 5, 8}, {5, 8, 5, 4}, {5, 4, 5, 0}, {0, 0, 5, 0},
-                                             {0, 0, 0, 4}, {0, 4, 0, 8}, {0, 4, 5, 4}};
+    static const unsigned char ends[7][4] = {{0, 12, 7, 12}, {7, 12, 7, 6}, {7, 6, 7, 0},
+                                             {0, 0, 7, 0},   {0, 0, 0, 6},  {0, 6, 0, 12},
+                                             {0, 6, 7, 6}};
     char text[16];
     OfxPointD points[sizeof text * WO_COUNT(ends) * 2];
     int count = 0;
@@ -121,9 +122,9 @@ static void digits(const wo_ofx_canvas *canvas, wo_ofx_ink ink, OfxPointD at, in
     for (int i = 0; i < length; i++)
         for (size_t j = 0; j < WO_COUNT(ends); j++)
             for (int k = 0; k < 4 && (strokes[text[i] - '0'] >> j & 1); k += 2)
-                points[count++] = (OfxPointD){at.x + (8 * i + ends[j][k]) * canvas->pixel[0],
+                points[count++] = (OfxPointD){at.x + (11 * i + ends[j][k]) * canvas->pixel[0],
                                               at.y + ends[j][k + 1] * canvas->pixel[1]};
-    wo_ofx_canvas_lines(canvas, ink, false, 1, kOfxDrawPrimitiveLines, points, count);
+    wo_ofx_canvas_lines(canvas, ink, false, 1.5f, kOfxDrawPrimitiveLines, points, count);
 }
 
 void wo_ofx_canvas_label(const wo_ofx_canvas *canvas, wo_ofx_ink ink, OfxPointD at,

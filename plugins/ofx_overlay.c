@@ -11,12 +11,13 @@
 
 enum { HANDLES_MAX = 32, ROUND = 24 };
 
-static const double radius = 7; /* of a handle, and how near the pen must come; screen pixels */
+static const double radius = 8; /* of a handle, and how near the pen must come; screen pixels */
 static const int nothing = -1;
 
 /* All that lives between two actions of one interact. */
 typedef struct overlay {
     int picked;     /* row of the handle under the pen, or nothing */
+    bool seen;      /* handles were drawn the last time; others are not taken */
     bool dragging;  /* the picked one; an edit is open */
     OfxPointD pen;  /* where it was last while dragging */
     OfxPointD grip; /* from the pen to the handle */
@@ -174,10 +175,10 @@ static void draw_handle(const wo_ofx_canvas *canvas, OfxPointD at, bool picked, 
                         int number)
 {
     const wo_ofx_ink ink = picked ? WO_OFX_INK_PICKED : WO_OFX_INK_IDLE;
-    const float width = picked ? 2 : 1;
+    const float width = picked ? 2 : 1.5f;
     const double x = radius * canvas->pixel[0], y = radius * canvas->pixel[1];
     const OfxPointD cross[4] = {
-        {at.x - x, at.y}, {at.x + x, at.y}, {at.x, at.y - y}, {at.x, at.y + y}};
+        {at.x - x / 2, at.y}, {at.x + x / 2, at.y}, {at.x, at.y - y / 2}, {at.x, at.y + y / 2}};
     const OfxPointD beside = {at.x + 1.5 * x, at.y + y};
     OfxPointD circle[ROUND];
 
@@ -199,8 +200,11 @@ static OfxStatus draw(const overlay_action *a, bool may_gl)
     handles list;
 
     read_handles(a, &list);
-    if (list.count == 0 ||
-        !wo_ofx_canvas_begin(&canvas, a->suites, a->in, a->properties, a->pixel, may_gl))
+    const bool seen = list.count > 0 && wo_ofx_canvas_begin(&canvas, a->suites, a->in,
+                                                            a->properties, a->pixel, may_gl);
+    if (a->state)
+        a->state->seen = seen;
+    if (!seen)
         return kOfxStatReplyDefault;
     for (int i = 0; i < list.count; i++)
         corners[i] = list.items[i].at;
@@ -269,7 +273,7 @@ static OfxStatus pen_down(const overlay_action *a)
     handles list;
 
     end_drag(a); /* of a host that forgot to say so */
-    if (!set || !suite->paramSetValue || !read_pen(a, &pen))
+    if (!a->state->seen || !set || !suite->paramSetValue || !read_pen(a, &pen))
         return kOfxStatReplyDefault;
     read_handles(a, &list);
     const int i = find(a, &list, pen);
@@ -308,7 +312,7 @@ static OfxStatus pen_motion(const overlay_action *a)
             drag(a, pen);
         return kOfxStatOK;
     }
-    if (!known)
+    if (!a->state->seen || !known)
         return kOfxStatReplyDefault;
     read_handles(a, &list);
     const int i = find(a, &list, pen);
