@@ -387,6 +387,10 @@ static void poor_hosts_get_what_they_can_show(void **state)
         close_all();
         open_flags(MOCK_OVERLAYS | rows[i].flags);
         assert_int_equal(draw(), rows[i].drawing);
+        mock_viewer.redraws = 0;
+        act(kOfxInteractActionPenMotion, first[0], first[1]);
+        assert_int_equal(mock_viewer.redraws,
+                         rows[i].drawing == kOfxStatOK && rows[i].flags != MOCK_NO_INSTANCE_DATA);
         assert_int_equal(act(kOfxInteractActionPenDown, first[0], first[1]), rows[i].pen);
         act(kOfxInteractActionPenMotion, 15, 25);
         act(kOfxInteractActionPenUp, 15, 25);
