@@ -96,6 +96,11 @@ typedef struct wo_effect {
     /* Index of the clip the output is a plain copy of, or -1; decided without pixels. */
     int (*identity)(const void *params, const wo_geometry *geometry);
 
+    /* How many of the points marked wo_param.overlay are in use, the first ones of the table;
+       *joined says whether they belong together (a plane through them) and are shown joined by
+       lines. NULL: all of them, each for itself. */
+    int (*handles)(const void *params, bool *joined);
+
     /* *plan is NULL after a failure. One thread; the work inside uses context->runner. Keeps a copy
        of params, and of *context, whose pointers must stay valid until the plan is destroyed. */
     wo_status (*plan_create)(const wo_context *context, const void *params,

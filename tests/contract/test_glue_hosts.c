@@ -42,8 +42,8 @@ static void reload(unsigned flags)
 static void the_binary_offers_its_plugins(void **state)
 {
     (void)state;
-    assert_int_equal(probe_count(), 2);
-    assert_null(probe_get(2));
+    assert_int_equal(probe_count(), 3);
+    assert_null(probe_get(3));
     assert_string_equal(probe_get(1)->pluginIdentifier, "org.wideopen.test.Demanding");
     assert_null(probe_get(-1));
     assert_ptr_equal(probe_get(0), probe);
