@@ -313,7 +313,7 @@ bool wo_camera_get(const wo_camera *camera, wo_camera_value value, double units_
     double v = fact->value;
     if (fact->scene_units)
         v /= units->rank > 0 ? units->value : units_per_metre;
-    if (!(fabs(v) <= 1e9) || (fact->scene_units && v != 0 && v < 1e-6))
+    if (!(fabs(v) <= 1e9) || (fact->scene_units && fact->value != 0 && !(v >= 1e-6)))
         return false;
     *number = v;
     *name = fact->name;
