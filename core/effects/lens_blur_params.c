@@ -32,8 +32,12 @@ static const char *const method_labels[] = {"Rays", "Reference", NULL};
 static const char *const samplings[] = {"fixed", "adaptive", NULL};
 static const char *const sampling_labels[] = {"Fixed", "Adaptive", NULL};
 
-static const char *const cameras[] = {"parameters", "metadata", "ownFocus",
-                                      "ownStop",    "ownBoth",  NULL};
+static const char *const cameras[] = {"parameters",
+                                      "metadata",
+                                      "metadataOwnFocus",
+                                      "metadataOwnFNumber",
+                                      "metadataOwnFocusAndFNumber",
+                                      NULL};
 static const char *const camera_labels[] = {"Parameters",
                                             "Metadata",
                                             "Metadata, own focus",
