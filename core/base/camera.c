@@ -46,10 +46,10 @@ typedef struct spelling {
 
 /* The first row wins; camera_metadata.md says where each comes from. */
 static const spelling spellings[] = {
-    /* our own: the keys of the parameters */
-    FOCAL("wideopen:focallength"),
-    SENSOR("wideopen:sensorwidth"),
-    F_NUMBER("wideopen:fstop"),
+    /* our own: the keys of the parameters, and their ranges */
+    ROW("wideopen:focallength", WO_CAMERA_FOCAL_LENGTH, NUMBER, 1, 0.1, 1e5),
+    ROW("wideopen:sensorwidth", WO_CAMERA_SENSOR_WIDTH, NUMBER, 1, 0.1, 1e5),
+    ROW("wideopen:fstop", WO_CAMERA_F_NUMBER, NUMBER, 1, 0.01, 1e6),
     ROW("wideopen:focusdistance", WO_CAMERA_FOCUS, NUMBER, 1, -1e9, 1e9),
     ROW("wideopen:near", WO_CAMERA_NEAR, NUMBER, 1, 1e-6, 1e9),
     ROW("wideopen:far", WO_CAMERA_FAR, NUMBER, 1, 1e-6, 1e9),
