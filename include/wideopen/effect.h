@@ -3,6 +3,7 @@
 #ifndef WIDEOPEN_EFFECT_H
 #define WIDEOPEN_EFFECT_H
 
+#include "wideopen/camera.h"
 #include "wideopen/context.h"
 #include "wideopen/image.h"
 #include "wideopen/param.h"
@@ -42,7 +43,8 @@ typedef struct wo_param_group {
     bool open; /* shown open at first */
 } wo_param_group;
 
-/* What is known about the picture before its pixels. All in pixels at the present render scale. */
+/* What is known about the picture before its pixels. Sizes in pixels at the present render scale.
+ */
 typedef struct wo_geometry {
     wo_rect format;       /* the frame the camera saw: its width is the sensor's width */
     wo_rect extent;       /* where Source has pixels (region of definition) */
@@ -50,6 +52,7 @@ typedef struct wo_geometry {
     double pixel_stretch; /* height of a horizontal pixel's worth in vertical pixels:
                              pixel aspect ratio times vertical over horizontal render scale */
     bool connected[WO_CLIPS_MAX];
+    wo_camera camera; /* that the picture's metadata names; zero where nothing is known */
 } wo_geometry;
 
 #define WO_GEOMETRY_INIT                                                                           \

@@ -6,6 +6,7 @@
 #include "ofx/ofxImageEffect.h"
 #include "ofx/ofxMultiThread.h"
 #include "wideopen/image.h"
+#include "wideopen/ofx_camera.h"
 #include "wideopen/ofx_report.h"
 
 /* A host that does what real hosts do and should not: lacks suites, half fills them, hands out
@@ -51,13 +52,14 @@ typedef struct mock_picture {
     int row_bytes;
     const char *depth;
     const char *components;
-    const char *alpha; /* NULL: the image does not say */
-    OfxRectD region;   /* of definition, canonical; all 0 = bounds */
-    wo_rect defined;   /* what the image says of it, in pixels, if not empty */
-    wo_rect first;     /* if not empty: what is given unless a region is named */
-    bool silent;       /* clipGetImage fails */
-    bool starved;      /* clipGetImage has no memory */
-    bool connected;    /* what the clip says */
+    const char *alpha;                /* NULL: the image does not say */
+    OfxRectD region;                  /* of definition, canonical; all 0 = bounds */
+    wo_rect defined;                  /* what the image says of it, in pixels, if not empty */
+    wo_rect first;                    /* if not empty: what is given unless a region is named */
+    bool silent;                      /* clipGetImage fails */
+    bool starved;                     /* clipGetImage has no memory */
+    bool connected;                   /* what the clip says */
+    const char *names[3], *values[3]; /* of its metadata; NULL: not said */
 } mock_picture;
 
 typedef struct mock_state {

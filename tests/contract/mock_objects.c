@@ -259,6 +259,12 @@ static OfxStatus clip_get_handle(OfxImageEffectHandle effect, const char *name,
             if ((*clip)->picture->alpha)
                 put_text((*clip)->props, kOfxImageEffectPropPreMultiplication, 0,
                          (*clip)->picture->alpha);
+            for (int k = 0; k < 3 && (*clip)->picture->names[k]; k++)
+                put_text((*clip)->props, kWideOpenClipPropMetadataNames, k,
+                         (*clip)->picture->names[k]);
+            for (int k = 0; k < 3 && (*clip)->picture->values[k]; k++)
+                put_text((*clip)->props, kWideOpenClipPropMetadataValues, k,
+                         (*clip)->picture->values[k]);
             if (props)
                 *props = (*clip)->props;
             return kOfxStatOK;
