@@ -278,8 +278,9 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .label = "Target error",
      .unit = "",
      .group = "quality",
-     .help = "Adaptive sampling goes on until the estimated error of the displayed picture (black "
-             "0, white 1) is below this. 1/255 = 0.004 is one step of an 8-bit display.",
+     .help = "Adaptive sampling goes on until noise beyond this is not to be expected: until three "
+             "estimated standard errors of the displayed picture (black 0, white 1) are below it. "
+             "1/255 = 0.004 is one step of an 8-bit display.",
      .type = WO_PARAM_DOUBLE,
      .offset = FIELD(target_error),
      .initial = {0.004},

@@ -206,9 +206,36 @@ static wo_status check_args(const wo_plan_args *args, wo_error *error)
     return WO_OK;
 }
 
-static int most_rays(const wo_quality *quality)
+/* Rays of the first level when adaptive, but at least so many for each wavelength. */
+enum { FIRST_RAYS = 16, FIRST_RAYS_A_LINE = 2 };
+
+static int wavelengths_of(const wo_lens_blur_params *p)
 {
-    return quality->adaptive ? quality->max_rays : quality->samples;
+    const int most = p->sampling == WO_SAMPLING_ADAPTIVE ? p->max_rays : p->samples;
+    return p->wavelengths < most ? p->wavelengths : most;
+}
+
+/* Numbers of rays: one, or doubled and doubled until the budget. */
+static int list_levels(const wo_lens_blur_params *p, int count[WO_LEVELS_MAX])
+{
+    if (p->sampling == WO_SAMPLING_FIXED) {
+        count[0] = p->samples;
+        return 1;
+    }
+    int rays = FIRST_RAYS;
+    while (wo_lens_blur_has_table(p) && rays < FIRST_RAYS_A_LINE * wavelengths_of(p))
+        rays *= 2;
+    int levels = 0;
+    for (; levels < WO_LEVELS_MAX && (levels == 0 || rays < p->max_rays); rays *= 2)
+        count[levels++] = rays < p->max_rays ? rays : p->max_rays;
+    return levels;
+}
+
+/* Those that borrow the table first. */
+static void destroy_tables(wo_plan *plan)
+{
+    for (int i = WO_LEVELS_MAX - 1; i >= 0; i--)
+        wo_table_pencils_destroy(&plan->context, &plan->table[i]);
 }
 
 /* Any lens but the thin one, through its table. */
@@ -218,8 +245,9 @@ static wo_status make_table_lens(wo_plan *plan, wo_error *error)
     const wo_lens_blur_setup *s = &plan->setup;
     const wo_geometry *g = &plan->geometry;
     const wo_rect far = wo_rect_union(g->extent, g->format);
-    const int count = most_rays(&plan->quality);
-    const int wavelengths = p->wavelengths < count ? p->wavelengths : count;
+    int count[WO_LEVELS_MAX];
+    const int levels = list_levels(p, count);
+    const int wavelengths = wavelengths_of(p);
     wo_table_pencil_options options = {
         .aperture = &s->aperture,
         .focal_px = s->lens.focal_px,
@@ -231,7 +259,7 @@ static wo_status make_table_lens(wo_plan *plan, wo_error *error)
         .half_diagonal =
             0.5 * hypot(wo_rect_width(g->format), wo_rect_height(g->format) / g->pixel_stretch),
         .doors = {p->door_left, p->door_right, p->door_bottom, p->door_top},
-        .count = count,
+        .count = count[0],
         .wavelengths = wavelengths,
         .seed = (uint32_t)p->seed,
     };
@@ -264,14 +292,19 @@ static wo_status make_table_lens(wo_plan *plan, wo_error *error)
     if (status == WO_OK) {
         options.px_per_dioptre =
             s->lens.k * fmax(1, g->pixel_stretch) * (p->f_stop / fmax(chosen->f_number, p->f_stop));
-        status = wo_table_pencils_create(&plan->context, &chosen->model, &options, &plan->table,
+        status = wo_table_pencils_create(&plan->context, &chosen->model, &options, &plan->table[0],
                                          &plan->facts, error);
+        for (int i = 1; status == WO_OK && i < levels; i++)
+            status = wo_table_pencils_again(&plan->context, plan->table[0], &s->aperture, count[i],
+                                            &plan->table[i], error);
     }
     plan->f_number = chosen->f_number;
     wo_delete(&plan->context, chosen);
     if (status != WO_OK)
         return status;
-    plan->lens = wo_table_pencils_lens(plan->table);
+    plan->levels = levels;
+    for (int i = 0; i < levels; i++)
+        plan->level[i] = wo_table_pencils_lens(plan->table[i]);
     if (plan->facts.beyond > 0)
         wo_report_leave_out(&plan->report, "lens rays", "they go farther than the largest blur",
                             100 * plan->facts.beyond, "% of those tried");
@@ -285,17 +318,21 @@ static wo_status make_lens(wo_plan *plan, wo_error *error)
         WO_TRY(make_table_lens(plan, error));
         if (!plan->facts.ideal)
             return WO_OK;
-        wo_table_pencils_destroy(&plan->context, &plan->table);
+        destroy_tables(plan);
         wo_report_leave_out(&plan->report, "table of the lens",
                             "it has no aberrations: a thin lens", 0, "");
     }
     /* Inside the renderer vergence is counted from the focus. */
     wo_thin_lens lens = plan->setup.lens;
     lens.vf = 0;
-    WO_TRY(wo_thin_pencils_create(&plan->context, &lens, &plan->setup.aperture,
-                                  plan->geometry.pixel_stretch, most_rays(&plan->quality),
-                                  (uint32_t)plan->params.seed, &plan->pencils, error));
-    plan->lens = wo_thin_pencils_lens(plan->pencils);
+    int count[WO_LEVELS_MAX];
+    plan->levels = list_levels(&plan->params, count);
+    for (int i = 0; i < plan->levels; i++) {
+        WO_TRY(wo_thin_pencils_create(&plan->context, &lens, &plan->setup.aperture,
+                                      plan->geometry.pixel_stretch, count[i],
+                                      (uint32_t)plan->params.seed, &plan->pencils[i], error));
+        plan->level[i] = wo_thin_pencils_lens(plan->pencils[i]);
+    }
     return WO_OK;
 }
 
@@ -327,6 +364,7 @@ wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params
         goto done;
     if ((status = make_lens(plan, error)) != WO_OK)
         goto done;
+    plan->lens = plan->level[plan->levels - 1];
     if ((status = build_scene(plan, args, error)) != WO_OK)
         goto done;
     const double start = wo_seconds();
@@ -349,8 +387,9 @@ void wo_lens_blur_plan_destroy(wo_plan **plan)
     wo_lens_rays_destroy(&context, &(*plan)->rays);
     wo_stack_destroy(&context, &(*plan)->stack);
     wo_highlights_destroy(&context, &(*plan)->highlights);
-    wo_thin_pencils_destroy(&context, &(*plan)->pencils);
-    wo_table_pencils_destroy(&context, &(*plan)->table);
+    for (int i = 0; i < WO_LEVELS_MAX; i++)
+        wo_thin_pencils_destroy(&context, &(*plan)->pencils[i]);
+    destroy_tables(*plan);
     wo_delete(&context, *plan);
     *plan = NULL;
 }
@@ -406,7 +445,7 @@ int wo_lens_blur_plan_print(const wo_plan *plan, char *buffer, size_t size)
         plan->lens.px_per_dioptre);
     for (int i = 0; i < plan->report.camera_count; i++)
         add_camera(&p, &plan->report.camera[i]);
-    if (plan->table) {
+    if (plan->table[0]) {
         const wo_table_facts *f = &plan->facts;
         const bool real =
             plan->params.lens == WO_LENS_PRESCRIPTION || plan->params.lens == WO_LENS_SEIDEL;

@@ -7,6 +7,8 @@
 #include "effects/lens_blur.h"
 #include "optics/pencil_table.h"
 
+enum { WO_LEVELS_MAX = 12 };
+
 /* The plan of LensBlur: the scene made ready, the lens, a class for every tile. */
 struct wo_plan {
     wo_context context;
@@ -16,11 +18,13 @@ struct wo_plan {
     wo_rect window;
     wo_image mask, source; /* borrowed */
     wo_alpha source_alpha;
-    wo_thin_pencils *pencils; /* the one or the other */
-    wo_table_pencils *table;
+    int levels;                              /* the lens with more and more rays */
+    wo_thin_pencils *pencils[WO_LEVELS_MAX]; /* the one or the other */
+    wo_table_pencils *table[WO_LEVELS_MAX];  /* [0] owns the table */
+    wo_lens level[WO_LEVELS_MAX];
     wo_table_facts facts; /* of the table */
     double f_number;      /* reached by the lens */
-    wo_lens lens;
+    wo_lens lens;         /* the last level */
     wo_stack stack;
     wo_highlights highlights;
     wo_lens_rays rays;
