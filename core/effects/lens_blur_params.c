@@ -3,15 +3,20 @@
 #include "effects/lens_blur.h"
 
 #include "defocus/renderer.h"
+#include "focus/focus.h"
 #include "optics/lens_choice.h"
 #include "spectrum/bands.h"
 
 #define FIELD(name) offsetof(wo_lens_blur_params, name)
 
 const wo_param_group wo_lens_blur_groups[WO_LENS_BLUR_GROUPS] = {
-    {"camera", "Camera", true},     {"depth", "Depth and layers", true},
-    {"aperture", "Aperture", true}, {"lensModel", "Lens", false},
-    {"quality", "Quality", true},   {"view", "Output", true},
+    {"camera", "Camera", true},
+    {"focusControl", "Focus", false},
+    {"depth", "Depth and layers", true},
+    {"aperture", "Aperture", true},
+    {"lensModel", "Lens", false},
+    {"quality", "Quality", true},
+    {"view", "Output", true},
 };
 
 #define DEPTH_KEY(name, key, label)   key,
@@ -32,6 +37,7 @@ static const char *const method_labels[] = {"Rays", "Reference", NULL};
 static const char *const samplings[] = {"fixed", "adaptive", NULL};
 static const char *const sampling_labels[] = {"Fixed", "Adaptive", NULL};
 
+#include "effects/focus_choices.inc.h"
 #include "effects/lens_choices.inc.h"
 
 const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
@@ -102,6 +108,7 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .max = 1,
      .ui_min = 0,
      .ui_max = 1},
+#include "effects/focus_params.inc.h"
     {.key = "useDepth",
      .label = "Use depth",
      .unit = "",
@@ -353,4 +360,7 @@ const wo_clip wo_lens_blur_clips[WO_LENS_BLUR_CLIPS] = {
      .optional = true,
      .mask = true,
      .components = WO_COMPONENT_ALPHA | WO_COMPONENT_RGB | WO_COMPONENT_RGBA},
+    DEPTH("Focus", "Focus",
+          "Where the focus is, pixel by pixel, or how large the blur; see Focus clip is. The first "
+          "channel counts."),
 };

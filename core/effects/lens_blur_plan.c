@@ -2,6 +2,7 @@
 /* Copyright the WideOpen authors */
 #include "effects/lens_blur_plan.h"
 
+#include "effects/lens_blur_focus.h"
 #include "optics/lens_choice.h"
 
 #include <math.h>
@@ -70,7 +71,9 @@ static wo_status load_layers(const wo_plan *plan, const wo_plan_args *args, wo_r
             .format = plan->geometry.format,
             .focal_px = setup->lens.focal_px,
             .stretch = plan->geometry.pixel_stretch,
-            .v_origin = setup->lens.vf,
+            .v_origin = plan->focus.v_axis,
+            .focus =
+                plan->focus.flat || plan->params.output == WO_OUTPUT_DEPTH ? NULL : &plan->focus,
             .v_min = setup->v_min,
             .v_max = setup->v_max,
         };
@@ -108,7 +111,7 @@ static void note_layers(wo_plan *plan, const wo_sheet sheets[SHEETS], int64_t sp
     for (int i = 0; i < WO_LENS_BLUR_LAYERS; i++)
         if (plan->setup.layer_used[i] && !sheets[i].any)
             wo_report_leave_out(report, "layers", "empty or not connected", 1, "layers");
-    if (!plan->setup.has_depth)
+    if (!plan->setup.has_depth && !plan->setup.focus_map)
         wo_report_leave_out(report, "edges and hidden surfaces", "no depth: one distance", 0, "");
     else if (split == 0)
         wo_report_leave_out(report, "sheet of split edges", "no pixel mixes two distances", 1,
@@ -299,6 +302,24 @@ static wo_status make_lens(wo_plan *plan, wo_error *error)
     return WO_OK;
 }
 
+/* The focus gets to know the lens, and the lens the tilt of the focus. */
+static void tilt_lens(wo_plan *plan)
+{
+    wo_focus_fit_lens(&plan->focus, plan->setup.lens.k, wo_lens_slope(&plan->lens));
+    plan->setup.tilt = 1 / (1 - plan->focus.tilt_slope);
+    if (plan->focus.tilt_slope == 0)
+        return;
+    plan->upright = plan->lens;
+    plan->tilted = (wo_tilted_pencils){.inside = &plan->upright,
+                                       .b = {plan->focus.tilt[0], plan->focus.tilt[1]},
+                                       .slope = plan->focus.tilt_slope};
+    plan->lens = wo_tilted_pencils_lens(&plan->tilted);
+    if (plan->focus.tilt_asked > plan->focus.tilt_slope)
+        wo_report_leave_out(
+            &plan->report, "tilt of the plane of focus", "it would cut through the entrance pupil",
+            100 * (1 - plan->focus.tilt_slope / plan->focus.tilt_asked), "% of the slope");
+}
+
 wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params,
                                    const wo_plan_args *args, wo_plan **out, wo_error *error)
 {
@@ -324,13 +345,16 @@ wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params
     wo_status status = wo_lens_blur_prepare(&plan->params, &plan->geometry, &plan->setup, error);
     if (status != WO_OK || wo_rect_empty(plan->window))
         goto done;
-    if ((status = make_lens(plan, error)) != WO_OK)
+    status = wo_lens_blur_focus_make(&plan->params, args, &plan->setup, &plan->focus, error);
+    if (status != WO_OK || (status = make_lens(plan, error)) != WO_OK)
         goto done;
+    tilt_lens(plan);
     if ((status = build_scene(plan, args, error)) != WO_OK)
         goto done;
     const double start = wo_seconds();
     status = wo_lens_rays_create(&plan->context, &plan->stack, &plan->lens, plan->window,
-                                 plan->setup.reach * fmax(1, plan->geometry.pixel_stretch),
+                                 plan->setup.reach * plan->setup.tilt *
+                                     fmax(1, plan->geometry.pixel_stretch),
                                  &plan->rays, error);
     plan->report.seconds[WO_STAGE_PLAN] = wo_seconds() - start;
 done:
@@ -353,6 +377,9 @@ void wo_lens_blur_plan_destroy(wo_plan **plan)
     wo_delete(&context, *plan);
     *plan = NULL;
 }
+
+#define FOCUS_BY(name, key, label) key,
+static const char *const focus_by[] = {WO_FOCUS_BY_LIST(FOCUS_BY)};
 
 typedef struct printer {
     char *buffer;
@@ -389,9 +416,14 @@ int wo_lens_blur_plan_print(const wo_plan *plan, char *buffer, size_t size)
         buffer[0] = 0;
     add(&p, "window      %d,%d .. %d,%d (%d x %d px)\n", w.x1, w.y1, w.x2, w.y2, wo_rect_width(w),
         wo_rect_height(w));
-    add(&p, "lens        %g mm f/%g, focus at %g m; blur radius %.4g px per dioptre\n",
-        plan->params.focal_length, plan->params.f_stop, plan->params.focus_distance,
+    const wo_focus *focus = &plan->focus;
+    add(&p, "lens        %g mm f/%g, focus at %.6g m; blur radius %.4g px per dioptre\n",
+        plan->params.focal_length, plan->params.f_stop, focus->v_axis != 0 ? 1 / focus->v_axis : 0,
         plan->lens.px_per_dioptre);
+    if (focus->options.count > 0 || !focus->flat)
+        add(&p, "focus       by %s, %d points; tilt %.4g px of blur radius for each px%s\n",
+            s->focus_map ? "clip" : focus_by[focus->options.by], focus->options.count,
+            focus->tilt_slope, focus->tilt_asked > focus->tilt_slope ? " (limited)" : "");
     if (plan->table) {
         const wo_table_facts *f = &plan->facts;
         const bool real =

@@ -5,7 +5,9 @@
 
 #include "defocus/renderer.h"
 #include "effects/lens_blur.h"
+#include "focus/focus.h"
 #include "optics/pencil_table.h"
+#include "optics/pencil_tilt.h"
 
 /* The plan of LensBlur: the scene made ready, the lens, a class for every tile. */
 struct wo_plan {
@@ -20,6 +22,9 @@ struct wo_plan {
     wo_table_pencils *table;
     wo_table_facts facts; /* of the table */
     double f_number;      /* reached by the lens */
+    wo_focus focus;
+    wo_lens upright; /* before the tilt */
+    wo_tilted_pencils tilted;
     wo_lens lens;
     wo_stack stack;
     wo_highlights highlights;

@@ -39,7 +39,7 @@ static void circle_of_confusion(const wo_plan *plan, const wo_frame *frame, int3
 static void depth(const wo_plan *plan, const wo_frame *frame, int32_t x, int32_t y, float out[4])
 {
     (void)frame;
-    const double v = (double)nearest_surface(&plan->stack, x, y) + plan->setup.lens.vf;
+    const double v = (double)nearest_surface(&plan->stack, x, y) + plan->focus.v_axis;
     show(v > 1e-9 ? 1 / v : 0, out);
 }
 

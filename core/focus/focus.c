@@ -78,8 +78,8 @@ void wo_focus_make(const wo_focus_options *options, wo_focus *focus)
     focus->presence = presence_of(o);
     for (int i = 0; i < o->count; i++)
         focus->amounts |= o->points[i].weight > 0 && o->points[i].dof != 1;
-    focus->ordered = focus->amounts || o->protect_near > 0 || o->protect_far > 0 || o->near_gain != 1 ||
-                     o->far_gain != 1;
+    focus->ordered = focus->amounts || o->protect_near > 0 || o->protect_far > 0 ||
+                     o->near_gain != 1 || o->far_gain != 1;
     focus->flat = !focus->ordered && o->curvature == 0 && o->map_is == WO_FOCUS_MAP_OFF &&
                   (o->by == WO_FOCUS_BY_DISTANCE || o->by == WO_FOCUS_BY_POINT);
     if (o->by == WO_FOCUS_BY_PLANE && o->map_is == WO_FOCUS_MAP_OFF &&

@@ -46,12 +46,12 @@ typedef struct wo_focus_options {
     wo_focus_point points[WO_FOCUS_POINTS];
     double presence[WO_FOCUS_POINTS]; /* 0..1: of each point; the weights hold it already */
     int count;
-    double falloff;                   /* >= 1 */
-    double curvature;                 /* 1/m in the corner of the frame, with the square from the axis */
+    double falloff;   /* >= 1 */
+    double curvature; /* 1/m in the corner of the frame, with the square from the axis */
     double protect_near, protect_far; /* m before and behind the surface that stay sharp; >= 0 */
     double near_gain, far_gain;       /* >= 0 */
     wo_focus_map map_is;
-    wo_image map; /* borrowed; its last valid pixel goes on beyond its bounds */
+    wo_image map;     /* borrowed; its last valid pixel goes on beyond its bounds */
     double map_scale; /* px of the picture for a px of the map's radius */
     wo_rect format;
     double stretch; /* vertical px per horizontal px */

@@ -3,6 +3,7 @@
 #include "focus/focus_surface.h"
 
 #include <math.h>
+#include <stddef.h>
 
 /* Directions in which the points of a plane are spread by less than this part of the others do not
    tilt it, as a variance; nor does a spread below this length squared. */
@@ -104,14 +105,15 @@ bool wo_focus_surface_at(const wo_focus_point *points, int count, double falloff
     double mx = 0, my = 0, mv = 0, md = 0;
     for (int i = 0; i < count; i++) {
         const wo_focus_point *p = &points[i];
-        soft[i] = p->weight > 0 ? p->weight * fall((r2[i] + SOFT2) / (nearest + SOFT2), falloff) : 0;
+        soft[i] =
+            p->weight > 0 ? p->weight * fall((r2[i] + SOFT2) / (nearest + SOFT2), falloff) : 0;
         softened += soft[i];
         far2 += soft[i] * r2[i];
         double w = 0;
         if (p->weight > 0)
-            w = nearest > 0   ? p->weight * fall(r2[i] / nearest, falloff)
+            w = nearest > 0  ? p->weight * fall(r2[i] / nearest, falloff)
                 : r2[i] == 0 ? p->weight
-                              : 0;
+                             : 0;
         sum += w;
         mx += w * (x - p->x);
         my += w * (y - p->y);
