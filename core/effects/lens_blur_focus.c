@@ -6,10 +6,10 @@
 
 #include <math.h>
 
-/* Half the side of the window that is read around a point, px of the full resolution, and at most
-   so many px of the picture. */
+/* Half the side of the window that is read around a point, px of the full resolution, and at least
+   and at most so many px of the picture. */
 #define WINDOW_PX 2.5
-enum { WINDOW_MOST = 4, SAMPLES = (2 * WINDOW_MOST + 1) * (2 * WINDOW_MOST + 1) };
+enum { WINDOW_LEAST = 1, WINDOW_MOST = 4, SAMPLES = (2 * WINDOW_MOST + 1) * (2 * WINDOW_MOST + 1) };
 
 static int points_of(const wo_lens_blur_params *p)
 {
@@ -36,13 +36,18 @@ static double inside(double x, int32_t low, int32_t high)
     return fmin(fmax(x, low + 0.5), high - 0.5);
 }
 
+static int32_t half_window(double px)
+{
+    return (int32_t)fmin(fmax(px, WINDOW_LEAST), WINDOW_MOST);
+}
+
 /* The window of a point, after the point itself has been moved into the picture. */
 static wo_rect window_of(const wo_geometry *g, double at[2])
 {
     at[0] = inside(at[0], g->extent.x1, g->extent.x2);
     at[1] = inside(at[1], g->extent.y1, g->extent.y2);
-    const int32_t rx = (int32_t)fmin(WINDOW_PX * g->render_scale, WINDOW_MOST);
-    const int32_t ry = (int32_t)fmin(WINDOW_PX * g->render_scale * g->pixel_stretch, WINDOW_MOST);
+    const int32_t rx = half_window(WINDOW_PX * g->render_scale);
+    const int32_t ry = half_window(WINDOW_PX * g->render_scale * g->pixel_stretch);
     const int32_t x = (int32_t)floor(at[0]);
     const int32_t y = (int32_t)floor(at[1]);
     return wo_rect_intersect((wo_rect){x - rx, y - ry, x + rx + 1, y + ry + 1}, g->extent);
