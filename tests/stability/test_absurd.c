@@ -33,7 +33,7 @@ static void set(scene *s, const wo_param *row, double value)
     const double values[3] = {value, value, value};
     wo_error error = {WO_OK, ""};
     /* Rays and large blur cost time, and nothing else. */
-    if (strcmp(row->key, "samples") == 0 && value > 40)
+    if ((strcmp(row->key, "samples") == 0 || strcmp(row->key, "maxRays") == 0) && value > 40)
         return;
     if (strcmp(row->key, "maxRadius") == 0 && value > 150)
         return;
@@ -84,6 +84,7 @@ static scene start(uint64_t seed)
     scene_init(&s, small);
     scene_fill_layers(&s, seed);
     s.params.samples = 9;
+    s.params.max_rays = 40;
     return s;
 }
 
@@ -144,7 +145,7 @@ static void beyond_the_ranges(void **state)
         for (size_t k = 0; k < WO_COUNT(wrong); k++) {
             scene s = start(i);
             char *const field = (char *)&s.params + row->offset;
-            if (row->type == WO_PARAM_DOUBLE) {
+            if (row->type == WO_PARAM_DOUBLE || row->type == WO_PARAM_POINT) {
                 memcpy(field, &wrong[k], sizeof wrong[k]);
             } else {
                 const int32_t outside = (int32_t)(k % 2 ? row->max + 1 : row->min - 1);
