@@ -15,6 +15,7 @@ typedef enum wo_lens_blur_output {
     WO_OUTPUT_RAYS,
     WO_OUTPUT_ERROR,
     WO_OUTPUT_GUESSED,
+    WO_OUTPUT_FOCUS,
     WO_OUTPUT_COUNT
 } wo_lens_blur_output;
 

@@ -28,9 +28,10 @@ static const char *const channel_labels[] = {"Red or single channel", "Green", "
                                              NULL};
 static const char *const forms[] = {"iris", "star", "heart", NULL};
 static const char *const form_labels[] = {"Iris", "Star", "Heart", NULL};
-static const char *const outputs[] = {"image", "coc", "depth", "rays", "error", "guessed", NULL};
+static const char *const outputs[] = {"image", "coc",     "depth",      "rays",
+                                      "error", "guessed", "focusPlane", NULL};
 static const char *const output_labels[] = {
-    "Image", "Circle of confusion", "Depth", "Rays", "Error", "Guessed", NULL};
+    "Image", "Circle of confusion", "Depth", "Rays", "Error", "Guessed", "Focus plane", NULL};
 
 static const char *const methods[] = {"rays", "reference", NULL};
 static const char *const method_labels[] = {"Rays", "Reference", NULL};
@@ -321,7 +322,8 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .help =
          "The image, or a view of the plan: the radius of the circle of confusion in px "
          "(positive in front of the focus, negative behind), the depth in metres, the lens rays "
-         "of each pixel, its estimated error, or how much of its light was guessed.",
+         "of each pixel, its estimated error, how much of its light was guessed, or "
+         "what is in front of the focus (blue), in it to half a px (green) and behind it (red).",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(output),
      .initial = {WO_OUTPUT_IMAGE},

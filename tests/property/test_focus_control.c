@@ -339,6 +339,36 @@ static void every_knob_turns(void **state)
     scene_free(&s);
 }
 
+/* The view of the focus: the colour says on which side of it a pixel is. */
+static void the_view_shows_the_side(void **state)
+{
+    (void)state;
+    scene s;
+    slanted_chart(&s, (wo_rect){0, 0, 96, 40});
+    scene_px_per_dioptre(&s, 20);
+    s.params.focus_distance = 1.3;
+    s.params.output = WO_OUTPUT_COC;
+    wo_image coc = scene_render(&s, NULL);
+    s.params.output = WO_OUTPUT_FOCUS;
+    wo_image view = scene_render(&s, NULL);
+    int seen[3] = {0};
+    for (int32_t y = 0; y < 40; y++)
+        for (int32_t x = 0; x < 96; x++) {
+            const double c = (double)*wo_image_at(&coc, x, y);
+            const float *const v = wo_image_at(&view, x, y);
+            const int want = c > 0.5 ? 2 : c < -0.5 ? 0 : 1;
+            for (int k = 0; k < 3; k++)
+                assert_true(k == want || v[want] > v[k] + 0.05f);
+            assert_true(v[3] == 1);
+            seen[want]++;
+        }
+    for (int k = 0; k < 3; k++)
+        assert_true(seen[k] > 100);
+    picture_free(&coc);
+    picture_free(&view);
+    scene_free(&s);
+}
+
 /* With a traced lens, breathing and a point nearer than any lens can focus. */
 static void any_lens_can_be_tilted(void **state)
 {
@@ -383,6 +413,7 @@ int main(void)
         cmocka_unit_test(a_point_that_leaves_does_not_pop),
         cmocka_unit_test(a_clip_drives_the_focus),
         cmocka_unit_test(every_knob_turns),
+        cmocka_unit_test(the_view_shows_the_side),
         cmocka_unit_test(any_lens_can_be_tilted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
