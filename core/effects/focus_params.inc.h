@@ -61,10 +61,10 @@
      .label = "Focus clip is",
      .unit = "",
      .group = "focusControl",
-     .help = "What the numbers of the Focus clip mean, which takes the place of the points. Where "
-             "they are not finite, and distances not above 0, the focus distance holds; such a "
-             "radius is 0. A radius is in px of the full resolution, positive in front of the "
-             "focus.",
+     .help = "What the numbers of the Focus clip are, which takes the place of the points: the "
+             "distance in focus in m, its vergence in 1/m, or the radius of blur in px of the full "
+             "resolution, positive in front of the focus. Where they are not finite, and distances "
+             "not above 0, the focus distance holds; such a radius is 0.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(focus_clip),
      .initial = {WO_FOCUS_MAP_DISTANCE},

@@ -13,10 +13,10 @@
    and its circle of confusion has the radius K |w(p)|. No renderer knows of it. */
 
 #define WO_FOCUS_BY_LIST(X)                                                                        \
-    X(WO_FOCUS_BY_DISTANCE, "distance", "Focus distance")                                          \
-    X(WO_FOCUS_BY_POINT, "point", "Point 1")                                                       \
-    X(WO_FOCUS_BY_PLANE, "plane", "Plane through the points")                                      \
-    X(WO_FOCUS_BY_SURFACE, "surface", "Surface through the points")
+    X(WO_FOCUS_BY_DISTANCE, "distance", "Distance")                                                \
+    X(WO_FOCUS_BY_POINT, "point", "Point")                                                         \
+    X(WO_FOCUS_BY_PLANE, "plane", "Plane")                                                         \
+    X(WO_FOCUS_BY_SURFACE, "surface", "Surface")
 
 typedef enum wo_focus_by {
 #define WO_FOCUS_BY_ENUM(name, key, label) name,
@@ -28,10 +28,10 @@ typedef enum wo_focus_by {
 /* What the numbers of a map of the focus are; it takes the place of the surface where they are
    valid. */
 #define WO_FOCUS_MAP_LIST(X)                                                                       \
-    X(WO_FOCUS_MAP_OFF, "off", "Not used")                                                         \
-    X(WO_FOCUS_MAP_DISTANCE, "distance", "Focus distance, m")                                      \
-    X(WO_FOCUS_MAP_VERGENCE, "vergence", "Focus vergence, 1/m")                                    \
-    X(WO_FOCUS_MAP_RADIUS, "radius", "Signed radius of blur, px")
+    X(WO_FOCUS_MAP_OFF, "off", "Off")                                                              \
+    X(WO_FOCUS_MAP_DISTANCE, "distance", "Distance")                                               \
+    X(WO_FOCUS_MAP_VERGENCE, "vergence", "Vergence")                                               \
+    X(WO_FOCUS_MAP_RADIUS, "radius", "Radius")
 
 typedef enum wo_focus_map {
 #define WO_FOCUS_MAP_ENUM(name, key, label) name,
