@@ -18,7 +18,7 @@
      .unit = "px",                                                                                 \
      .group = "focusControl",                                                                      \
      .help = "Place of the point in pixels of the full resolution, from the lower left corner of " \
-             "the format, both in widths of a pixel. Outside the frame it reads the depth at the " \
+             "the picture (canonical coordinates). Outside the frame it reads the depth at the "   \
              "border and fades out.",                                                              \
      .type = WO_PARAM_POINT,                                                                       \
      .offset = FIELD(focus_point[(n)-1]),                                                          \
@@ -27,6 +27,7 @@
      .max = 1e6,                                                                                   \
      .ui_min = 0,                                                                                  \
      .ui_max = 4096,                                                                               \
+     .overlay = true,                                                                              \
      .animates = true},                                                                            \
         FOCUS_NUMBER("focusOffset" #n, "Offset " #n, "1/m", focus_offset[(n)-1], 0, -1e6, 1e6, -2, \
                      2,                                                                            \
@@ -56,6 +57,7 @@
  .ui_max = WO_FOCUS_BY_COUNT - 1,
  .choices = focus_by,
  .choice_labels = focus_by_labels,
+ .overlay = true,
  .animates = true},
     {.key = "focusClip",
      .label = "Focus clip is",
@@ -104,6 +106,7 @@
      .max = WO_FOCUS_POINTS,
      .ui_min = 1,
      .ui_max = WO_FOCUS_POINTS,
+     .overlay = true,
      .animates = true},
     FOCUS_NUMBER("focusFalloff", "Fall-off", "", focus_falloff, 3, 1, 8, 1, 8,
                  "How fast the influence of a point on the surface falls with distance: 2 to 4 is "

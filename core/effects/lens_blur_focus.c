@@ -18,17 +18,25 @@ static int points_of(const wo_lens_blur_params *p)
                                                : p->focus_points;
 }
 
+int wo_lens_blur_handles(const void *params, bool *joined)
+{
+    const wo_lens_blur_params *p = params;
+    *joined = p->focus_by == WO_FOCUS_BY_PLANE;
+    return points_of(p);
+}
+
 bool wo_lens_blur_focus_is_plain(const wo_lens_blur_params *p, bool has_map)
 {
     return p->focus_by == WO_FOCUS_BY_DISTANCE && !has_map && p->field_curvature == 0 &&
            p->protect_near == 0 && p->protect_far == 0 && p->near_gain == 1 && p->far_gain == 1;
 }
 
-/* A point in px of the picture. */
+/* A point in px of the picture, from canonical coordinates. */
 static void place(const wo_lens_blur_params *p, const wo_geometry *g, int i, double at[2])
 {
-    at[0] = g->format.x1 + p->focus_point[i][0] * g->render_scale;
-    at[1] = g->format.y1 + p->focus_point[i][1] * g->render_scale * g->pixel_stretch;
+    const double unit = g->render_scale / g->pixel_aspect;
+    at[0] = p->focus_point[i][0] * unit;
+    at[1] = p->focus_point[i][1] * unit * g->pixel_stretch;
 }
 
 static double inside(double x, int32_t low, int32_t high)

@@ -9,6 +9,9 @@
 /* Focus control of LensBlur: from parameters, depth under the points and the Focus clip to what is
    in focus where. */
 
+/* wo_effect.handles. */
+int wo_lens_blur_handles(const void *params, bool *joined);
+
 /* Without pixels: is the focus one distance, and that the focus distance? */
 bool wo_lens_blur_focus_is_plain(const wo_lens_blur_params *params, bool has_map);
 

@@ -197,9 +197,11 @@ static wo_status check_args(const wo_plan_args *args, wo_error *error)
         return wo_fail(error, WO_ERR_RANGE, "the picture reaches beyond %d..%d px",
                        -WO_MAX_COORDINATE, WO_MAX_COORDINATE);
     if (!(g->render_scale > 0 && g->render_scale <= 64) ||
-        !(g->pixel_stretch >= 1.0 / 64 && g->pixel_stretch <= 64))
-        return wo_fail(error, WO_ERR_RANGE, "render scale %g, pixel stretch %g: out of range",
-                       g->render_scale, g->pixel_stretch);
+        !(g->pixel_stretch >= 1.0 / 64 && g->pixel_stretch <= 64) ||
+        !(g->pixel_aspect > 1e-4 && g->pixel_aspect < 1e4))
+        return wo_fail(error, WO_ERR_RANGE,
+                       "render scale %g, pixel stretch %g, pixel aspect %g: out of range",
+                       g->render_scale, g->pixel_stretch, g->pixel_aspect);
     if (wo_rect_empty(args->window))
         return wo_fail(error, WO_ERR_ARGUMENT, "nothing to render: the window is empty");
     for (size_t i = 0; i < WO_LENS_BLUR_CLIPS; i++)
@@ -331,6 +333,7 @@ wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params
     plan->context = *context;
     memcpy(&plan->params, params, sizeof plan->params);
     plan->geometry = args->geometry;
+    wo_lens_blur_use_camera(&plan->params, &plan->geometry.camera, &plan->report);
     for (size_t i = 0; i < WO_LENS_BLUR_CLIPS; i++)
         plan->geometry.connected[i] = args->inputs[i].data != NULL;
     const bool adaptive = plan->params.sampling == WO_SAMPLING_ADAPTIVE;
@@ -399,6 +402,17 @@ static void add(printer *p, const char *format, ...)
     p->length += n > 0 ? n : 0;
 }
 
+static void add_camera(printer *p, const wo_camera_use *use)
+{
+    add(p, "camera      ");
+    if (use->key[0])
+        add(p, "%s %g%s%s from ", use->key, use->value, use->unit[0] ? " " : "", use->unit);
+    add(p, "%s", use->name);
+    if (use->why[0])
+        add(p, ": not used, %s", use->why);
+    add(p, "\n");
+}
+
 int wo_lens_blur_plan_print(const wo_plan *plan, char *buffer, size_t size)
 {
     printer p = {buffer, size, 0};
@@ -420,6 +434,8 @@ int wo_lens_blur_plan_print(const wo_plan *plan, char *buffer, size_t size)
     add(&p, "lens        %g mm f/%g, focus at %.6g m; blur radius %.4g px per dioptre\n",
         plan->params.focal_length, plan->params.f_stop, focus->v_axis != 0 ? 1 / focus->v_axis : 0,
         plan->lens.px_per_dioptre);
+    for (int i = 0; i < plan->report.camera_count; i++)
+        add_camera(&p, &plan->report.camera[i]);
     if (focus->options.count > 0 || !focus->flat)
         add(&p, "focus       by %s, %d points; tilt %.4g px of blur radius for each px%s\n",
             s->focus_map ? "clip" : focus_by[focus->options.by], focus->options.count,

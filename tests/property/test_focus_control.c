@@ -55,9 +55,13 @@ static void a_slanted_plane_is_sharp_all_over(void **state)
         s.params.samples = 16;
         s.params.focus_by = WO_FOCUS_BY_PLANE;
         s.params.breathing = n & 1;
-        set_point(&s, 0, 20.3 / scale, 15.8 / scale);
-        set_point(&s, 1, 140 / scale, 30 / scale);
-        set_point(&s, 2, 70.5 / scale, 80 / scale);
+        /* Canonical coordinates of places in px from the corner. */
+        const double stretch = s.geometry.pixel_stretch;
+        const double aspect = s.geometry.pixel_aspect = n & 1 ? 2 : 1;
+        const double at[3][2] = {{20.3, 15.8}, {140, 30}, {70.5, 80}};
+        for (int i = 0; i < 3; i++)
+            set_point(&s, i, (extents[n / 2].x1 + at[i][0]) * aspect / scale,
+                      (extents[n / 2].y1 / stretch + at[i][1]) * aspect / scale);
         s.params.output = WO_OUTPUT_COC;
         wo_image coc = scene_render(&s, NULL);
         assert_at_most(largest_coc(&coc), 0.05);
