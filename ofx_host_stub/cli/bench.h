@@ -66,8 +66,8 @@ typedef struct wo_bench {
     int shot_count;
 } wo_bench;
 
-/* A part of an error that does not count as a difference. */
-#define WO_BENCH_ERROR_TOLERANCE 0.01
+/* An error is reached when it is exceeded by no more than this part of it. */
+#define WO_BENCH_REACHED 0.01
 /* Estimates are good within this factor. */
 #define WO_BENCH_CALIBRATED 1.25
 
@@ -79,19 +79,20 @@ double wo_bench_psnr(double rmse);                     /* dB; infinite for 0 */
 
 /* ------------------------------------------------------------------------------- what follows */
 
-/* Number of a finished point of another method that has less error in less time than a point,
-   both by more than the tolerances; -1 when there is none. */
+/* Number of a finished point of another method that has no more error in less time than a point,
+   the time by more than the tolerance; -1 when there is none. */
 int wo_bench_beaten(const wo_bench *bench, const wo_bench_shot *shot, int point);
 
-/* True when no other point at all, tolerances aside, has less error in less time. */
+/* True when no other point at all is better in error or time and not worse in the other, tolerance
+   aside. */
 bool wo_bench_on_front(const wo_bench *bench, const wo_bench_shot *shot, int point);
 
-/* Seconds in which a method comes to an error (or within its tolerance), along straight lines
+/* Seconds in which a method reaches an error, along straight lines
    between its best points in a diagram with logarithmic axes; its first point's seconds when that
    is better; infinite when no point is that good; NAN when there are no points. */
 double wo_bench_time_at(const wo_bench *bench, const wo_bench_shot *shot, int method, double error);
 
-/* A shot as the judged method sees it. */
+/* A shot as the judged method sees it; points is 0 where no other method finished. */
 typedef struct wo_bench_verdict {
     int points, unbeaten; /* finished ones, those that none of the others beats */
     double share;         /* time at the error of rays 256 over the time of rays 256; NAN */
@@ -100,7 +101,7 @@ wo_bench_verdict wo_bench_judge(const wo_bench *bench, const wo_bench_shot *shot
 
 /* All shots that are given the same. */
 typedef struct wo_bench_summary {
-    int shots;    /* judged, with other methods finished */
+    int shots;    /* with a verdict */
     int on_front; /* whose points are all unbeaten */
     int compared; /* with a share */
     int halved;   /* with a share of at most a half */

@@ -43,8 +43,7 @@ int wo_bench_beaten(const wo_bench *bench, const wo_bench_shot *shot, int point)
     for (int i = 0; i < point_count(bench); i++) {
         const wo_bench_point *const q = &shot->points[i];
         if (is_done(shot, i) && i / bench->setting_count != point / bench->setting_count &&
-            q->seconds * (1 + bench->time_tolerance) < p->seconds &&
-            q->rmse * (1 + WO_BENCH_ERROR_TOLERANCE) < p->rmse)
+            q->seconds * (1 + bench->time_tolerance) < p->seconds && q->rmse <= p->rmse)
             return i;
     }
     return -1;
@@ -55,7 +54,8 @@ bool wo_bench_on_front(const wo_bench *bench, const wo_bench_shot *shot, int poi
     const wo_bench_point *const p = &shot->points[point];
     for (int i = 0; i < point_count(bench); i++) {
         const wo_bench_point *const q = &shot->points[i];
-        if (is_done(shot, i) && q->seconds < p->seconds && q->rmse < p->rmse)
+        if (is_done(shot, i) && q->seconds <= p->seconds && q->rmse <= p->rmse &&
+            (q->seconds < p->seconds || q->rmse < p->rmse))
             return false;
     }
     return is_done(shot, point);
@@ -82,7 +82,7 @@ double wo_bench_time_at(const wo_bench *bench, const wo_bench_shot *shot, int me
     if (count == 0)
         return NAN;
     qsort(points, count, sizeof points[0], by_time);
-    const double enough = error * (1 + WO_BENCH_ERROR_TOLERANCE);
+    const double enough = error * (1 + WO_BENCH_REACHED);
     const wo_bench_point *best = NULL; /* so far */
     for (size_t i = 0; i < count; i++) {
         const wo_bench_point *const p = points[i];
@@ -98,10 +98,19 @@ double wo_bench_time_at(const wo_bench *bench, const wo_bench_shot *shot, int me
     return INFINITY;
 }
 
+/* Is there anything to be held against? */
+static bool has_rivals(const wo_bench *bench, const wo_bench_shot *shot)
+{
+    for (int i = 0; i < point_count(bench); i++)
+        if (is_done(shot, i) && i / bench->setting_count != bench->judged)
+            return true;
+    return false;
+}
+
 wo_bench_verdict wo_bench_judge(const wo_bench *bench, const wo_bench_shot *shot)
 {
     wo_bench_verdict verdict = {.share = NAN};
-    if (bench->judged < 0 || shot->state != WO_BENCH_DONE)
+    if (bench->judged < 0 || shot->state != WO_BENCH_DONE || !has_rivals(bench, shot))
         return verdict;
     for (int i = 0; i < bench->setting_count; i++) {
         const int point = bench->judged * bench->setting_count + i;
@@ -116,15 +125,6 @@ wo_bench_verdict wo_bench_judge(const wo_bench *bench, const wo_bench_shot *shot
     return verdict;
 }
 
-/* Is there anything to be held against? */
-static bool has_rivals(const wo_bench *bench, const wo_bench_shot *shot)
-{
-    for (int i = 0; i < point_count(bench); i++)
-        if (is_done(shot, i) && i / bench->setting_count != bench->judged)
-            return true;
-    return false;
-}
-
 wo_bench_summary wo_bench_sum(const wo_bench *bench, bool layers)
 {
     wo_bench_summary sum = {0};
@@ -133,7 +133,7 @@ wo_bench_summary wo_bench_sum(const wo_bench *bench, bool layers)
         if (shot->layers != layers || shot->state != WO_BENCH_DONE)
             continue;
         const wo_bench_verdict verdict = wo_bench_judge(bench, shot);
-        if (verdict.points == 0 || !has_rivals(bench, shot))
+        if (verdict.points == 0)
             continue;
         sum.shots++;
         sum.on_front += verdict.unbeaten == verdict.points;

@@ -160,13 +160,13 @@ static void put_facts(const wo_bench *bench, FILE *out)
             "own picture with %d rays a pixel.</p>\n",
             bench->version[0], bench->version[1], bench->threads, bench->runs, bench->converged);
     fprintf(out,
-            "<p>A setting is beaten when one of another method has less error in less time, "
-            "by more than %s %% of the time",
+            "<p>A setting is beaten when one of another method has no more error in less time, "
+            "by more than %s %% of the time. An error counts as reached",
             wo_plot_number(number, sizeof number, 100 * bench->time_tolerance, 1));
     fprintf(out,
-            " and %s %% of the error. Rows in green are on the front: no other "
-            "setting is better in both, tolerances aside.</p>\n<ul>\n",
-            wo_plot_number(number, sizeof number, 100 * WO_BENCH_ERROR_TOLERANCE, 1));
+            " when it is exceeded by no more than %s %%. Rows in green are on the front: no other "
+            "setting is better in one and at least as good in the other.</p>\n<ul>\n",
+            wo_plot_number(number, sizeof number, 100 * WO_BENCH_REACHED, 1));
     wo_bench_conclusion(bench, text, sizeof text);
     for (char *line = strtok(text, "\n"); line; line = strtok(NULL, "\n")) {
         fputs("<li>", out);

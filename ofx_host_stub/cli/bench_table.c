@@ -332,7 +332,7 @@ void wo_bench_json(const wo_bench *bench, FILE *out)
     wo_json_integer(&json, "repeats", bench->runs);
     wo_json_integer(&json, "convergedSamples", bench->converged);
     wo_json_number(&json, "timeTolerance", bench->time_tolerance);
-    wo_json_number(&json, "errorTolerance", WO_BENCH_ERROR_TOLERANCE);
+    wo_json_number(&json, "reachedWithin", WO_BENCH_REACHED);
     wo_json_text(&json, "judged", bench->judged >= 0 ? bench->method[bench->judged] : NULL);
     wo_json_array(&json, "scenes");
     for (int i = 0; i < bench->shot_count; i++)
