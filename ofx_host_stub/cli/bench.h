@@ -30,14 +30,16 @@ typedef enum wo_bench_state {
 
 typedef struct wo_bench_point {
     wo_bench_state state;
-    char why[256];               /* it failed or was left out */
-    int runs;                    /* finished; run k renders with seed k */
-    double seconds;              /* render action, planning included; best of the runs */
-    double own_seconds;          /* as the plugin reports it; best of the runs; NAN = unknown */
-    double rays;                 /* mean of the runs, as the rest; NAN = unknown */
-    double rmse, ssim, relmse;   /* against the reference; rmse: root of the mean square */
-    double estimate;             /* the method's own idea of its sampling error; NAN = none */
-    double sampling;             /* against its own converged picture; NAN = not known */
+    char why[256];             /* it failed or was left out */
+    int runs;                  /* finished; run k renders with seed k */
+    double seconds;            /* by the clock of the bench, best of the runs, as the next three */
+    double wall_seconds;       /* of the render action, planning included */
+    double cpu_seconds;        /* of all threads together */
+    double own_seconds;        /* as the plugin reports it; NAN = unknown */
+    double rays;               /* mean of the runs, as the rest; NAN = unknown */
+    double rmse, ssim, relmse; /* against the reference; rmse: root of the mean square */
+    double estimate;           /* the method's own idea of its sampling error; NAN = none */
+    double sampling;           /* against its own converged picture; NAN = not known */
     double ratio[WO_BENCH_RUNS]; /* sampling / estimate of each run; NAN = not known */
 } wo_bench_point;
 
@@ -55,6 +57,7 @@ typedef struct wo_bench {
     const char *plugin;
     unsigned version[2], threads;
     int runs, converged, crop;
+    bool cpu_clock;        /* times are those of all processors together, not of the wall's clock */
     double time_tolerance; /* a part of a time that counts as noise of the clock */
     char method[WO_BENCH_METHODS][32];
     int method_count;

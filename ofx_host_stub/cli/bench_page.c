@@ -74,7 +74,9 @@ wo_status wo_bench_plot(const wo_bench *bench, const wo_bench_shot *shot, wo_svg
     char title[128];
     double x[WO_BENCH_SETTINGS], y[WO_BENCH_SETTINGS];
     const char *texts[WO_BENCH_SETTINGS];
-    wo_axis time = {1, 0, "time of a render, s", 0, true};
+    wo_axis time = {
+        1, 0, bench->cpu_clock ? "time of all processors for a render, s" : "time of a render, s",
+        0, true};
     wo_axis size = {1, 0, "error: RMSE of the displayed value", 0, true};
     for (int m = 0; m < bench->method_count; m++)
         for (int adaptive = 0; adaptive < 2; adaptive++) {
@@ -152,13 +154,16 @@ static void put_facts(const wo_bench *bench, FILE *out)
     char text[4096], number[32];
     fputs("<p>", out);
     put_text(out, bench->plugin);
-    fprintf(out,
-            " %u.%u, %u threads. Time is the best of %d interleaved runs, planning included; each "
-            "run has a seed of its own, and errors are means over the runs. Errors are against the "
-            "ray-traced reference, root mean squares of the displayed value (sRGB curve, black 0, "
-            "white 1); 0.004 is one step of an 8-bit display. Sampling error: against the method's "
-            "own picture with %d rays a pixel.</p>\n",
-            bench->version[0], bench->version[1], bench->threads, bench->runs, bench->converged);
+    fprintf(
+        out,
+        " %u.%u, %u threads. Time is %s, the best of %d interleaved runs, planning included; each "
+        "run has a seed of its own, and errors are means over the runs. Errors are against the "
+        "ray-traced reference, root mean squares of the displayed value (sRGB curve, black 0, "
+        "white 1); 0.004 is one step of an 8-bit display. Sampling error: against the method's "
+        "own picture with %d rays a pixel.</p>\n",
+        bench->version[0], bench->version[1], bench->threads,
+        bench->cpu_clock ? "that of all processors together" : "by the clock on the wall",
+        bench->runs, bench->converged);
     fprintf(out,
             "<p>A setting is beaten when one of another method has no more error in less time, "
             "by more than %s %% of the time. An error counts as reached",

@@ -120,6 +120,8 @@ static void name_of_folder(const char *path, char *name, size_t size)
 
 static int read_scenes(wo_bench_request *r)
 {
+    static const char *const standard[] = {"still-life", "fence",         "night-lights",
+                                           "two-planes", "slanted-plane", "hair"};
     const wo_args *const args = r->args;
     const char *const text = wo_args_value(args, "--scenes", 0);
     r->folder_count = wo_args_count(args, "--scene-dir");
@@ -128,9 +130,8 @@ static int read_scenes(wo_bench_request *r)
     if (!text && wo_args_count(args, "--quick") && r->folder_count == 0)
         snprintf(r->scene[r->scene_count++], sizeof r->scene[0], "still-life");
     else if (!text && r->folder_count == 0)
-        for (size_t i = 0; wo_footage_scene_at(i) && r->scene_count < WO_BENCH_SCENES; i++)
-            snprintf(r->scene[r->scene_count++], sizeof r->scene[0], "%s",
-                     wo_footage_scene_at(i)->name);
+        for (size_t i = 0; i < WO_COUNT(standard); i++)
+            snprintf(r->scene[r->scene_count++], sizeof r->scene[0], "%s", standard[i]);
     for (int i = 0; i < r->scene_count; i++)
         if (!wo_footage_scene_find(r->scene[i]))
             return unknown_scene(r->scene[i]);
@@ -205,6 +206,10 @@ static int read_numbers(wo_bench_request *r, wo_bench_job *job)
         !wo_args_double(r->args, "--tolerance", 0, 1, &bench->time_tolerance) ||
         !wo_args_double(r->args, "--limit", 0.001, 1e6, &job->limit))
         return WO_EXIT_USAGE;
+    const char *const clock = wo_args_value(r->args, "--clock", 0);
+    if (clock && strcmp(clock, "wall") != 0 && strcmp(clock, "cpu") != 0)
+        return wo_usage_fault("bench", "--clock %s: wall or cpu", clock);
+    bench->cpu_clock = clock && strcmp(clock, "cpu") == 0;
     r->threads = (unsigned)threads;
     r->progress = wo_bar_wanted(wo_args_count(r->args, "--progress") > 0,
                                 wo_args_count(r->args, "--no-progress") > 0);

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 /* Of the converged pictures: no other render has it, so that nothing is compared with a part of
    itself. */
@@ -26,7 +27,7 @@ typedef struct set {
 /* One render. */
 typedef struct take {
     wo_image picture;
-    double seconds;
+    double wall_seconds, cpu_seconds;
     char *report; /* JSON of the plugin, or NULL */
 } take;
 
@@ -83,6 +84,13 @@ static double reported(const take *t, const char *path)
     return end == begin + length ? value : NAN;
 }
 
+static double cpu_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
 static wo_status render(set *s, take *t, wo_error *error)
 {
     wo_bench_job *const job = s->job;
@@ -96,10 +104,12 @@ static wo_status render(set *s, take *t, wo_error *error)
     *t = (take){0};
     WO_TRY(wo_host_purge(s->instance, error)); /* nothing is left of the render before */
     job->deadline = wo_seconds() + job->limit;
+    const double start = cpu_seconds();
     const wo_status status = wo_host_render(s->instance, &args, &t->picture, &result, error);
+    t->cpu_seconds = cpu_seconds() - start;
+    t->wall_seconds = result.seconds;
     job->deadline = 0;
     wo_bar_move(&job->bar, (double)++job->rendered / job->to_render);
-    t->seconds = result.seconds;
     if (status == WO_ABORTED && !wo_interrupted(NULL))
         return wo_fail(error, WO_ERR_RANGE, "stopped after %g s, see --limit", job->limit);
     if (status == WO_OK && !t->picture.data)
@@ -128,9 +138,11 @@ static wo_status add_run(set *s, int method, wo_bench_point *p, const take *t, w
     if (s->converged[method].data)
         WO_TRY(difference(&s->converged[method], &t->picture, 0, &own, &sampling, error));
     const double estimate = reported(t, "estimated_error.all");
-    const double seconds = reported(t, "seconds.total");
-    p->seconds = p->runs ? fmin(p->seconds, t->seconds) : t->seconds;
-    p->own_seconds = p->runs ? fmin(p->own_seconds, seconds) : seconds;
+    const double own_seconds = reported(t, "seconds.total");
+    p->wall_seconds = p->runs ? fmin(p->wall_seconds, t->wall_seconds) : t->wall_seconds;
+    p->cpu_seconds = p->runs ? fmin(p->cpu_seconds, t->cpu_seconds) : t->cpu_seconds;
+    p->own_seconds = p->runs ? fmin(p->own_seconds, own_seconds) : own_seconds;
+    p->seconds = s->job->bench->cpu_clock ? p->cpu_seconds : p->wall_seconds;
     p->rays += reported(t, "rays");
     p->rmse += rmse * rmse;
     p->ssim += result.ssim;

@@ -183,8 +183,9 @@ void wo_bench_table(const wo_bench *bench, FILE *out)
             if (!isnan(shot->noise))
                 fprintf(out, ", the reference's own noise %s",
                         wo_plot_number(noise, sizeof noise, shot->noise, 5));
-            fprintf(out, "\n  %-12s %-15s %9s %9s %7s %8s %8s %8s %8s\n", "method", "setting", "s",
-                    "Mrays", "psnr", "ssim", "rmse", "sampling", "estimate");
+            fprintf(out, "\n  %-12s %-15s %9s %9s %7s %8s %8s %8s %8s\n", "method", "setting",
+                    bench->cpu_clock ? "cpu s" : "s", "Mrays", "psnr", "ssim", "rmse", "sampling",
+                    "estimate");
             for (int p = 0; p < bench->method_count * bench->setting_count; p++)
                 if (shot->points[p].state != WO_BENCH_LEFT_OUT)
                     print_point(bench, shot, p, out);
@@ -217,9 +218,17 @@ static void put_point(const wo_bench *bench, const wo_bench_shot *shot, int numb
     const wo_bench_point *const p = &shot->points[number];
     const wo_bench_setting *const setting = &bench->setting[number % bench->setting_count];
     const bool done = p->state == WO_BENCH_DONE;
-    const double values[] = {
-        p->seconds, p->own_seconds, p->rays,     wo_bench_psnr(p->rmse),   p->ssim, p->relmse,
-        p->rmse,    p->estimate,    p->sampling, p->sampling / p->estimate};
+    const double values[] = {p->wall_seconds,
+                             p->cpu_seconds,
+                             p->own_seconds,
+                             p->rays,
+                             wo_bench_psnr(p->rmse),
+                             p->ssim,
+                             p->relmse,
+                             p->rmse,
+                             p->estimate,
+                             p->sampling,
+                             p->sampling / p->estimate};
     char text[32];
     put_field(out, shot->scene);
     fprintf(out, ",%s,%s,%s,%s,%s,%d", wo_bench_given(shot),
@@ -238,7 +247,8 @@ static void put_point(const wo_bench *bench, const wo_bench_shot *shot, int numb
 
 void wo_bench_csv(const wo_bench *bench, FILE *out)
 {
-    fputs("scene,given,method,sampling,setting,state,runs,seconds,plugin_seconds,rays,psnr,ssim,"
+    fputs("scene,given,method,sampling,setting,state,runs,seconds,cpu_seconds,plugin_seconds,rays,"
+          "psnr,ssim,"
           "relmse,rmse,estimated_error,sampling_error,sampling_over_estimated,front,beaten,why\n",
           out);
     for (int i = 0; i < bench->shot_count; i++)
@@ -262,7 +272,8 @@ static void json_point(const wo_bench *bench, const wo_bench_shot *shot, int num
     if (p->state == WO_BENCH_DONE) {
         const int beaten = wo_bench_beaten(bench, shot, number);
         wo_json_integer(json, "runs", p->runs);
-        wo_json_number(json, "seconds", p->seconds);
+        wo_json_number(json, "seconds", p->wall_seconds);
+        wo_json_number(json, "cpuSeconds", p->cpu_seconds);
         wo_json_number(json, "pluginSeconds", p->own_seconds);
         wo_json_number(json, "rays", p->rays);
         wo_json_number(json, "psnr", wo_bench_psnr(p->rmse));
@@ -331,6 +342,7 @@ void wo_bench_json(const wo_bench *bench, FILE *out)
     wo_json_integer(&json, "threads", bench->threads);
     wo_json_integer(&json, "repeats", bench->runs);
     wo_json_integer(&json, "convergedSamples", bench->converged);
+    wo_json_text(&json, "clock", bench->cpu_clock ? "cpu" : "wall");
     wo_json_number(&json, "timeTolerance", bench->time_tolerance);
     wo_json_number(&json, "reachedWithin", WO_BENCH_REACHED);
     wo_json_text(&json, "judged", bench->judged >= 0 ? bench->method[bench->judged] : NULL);

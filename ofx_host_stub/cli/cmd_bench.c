@@ -17,7 +17,7 @@ static const wo_option options[] = {
     {"--output", "-o", "DIR", "Folder for results and footage; made when it does not exist.",
      false},
     {"--scenes", NULL, "A,B",
-     "Scenes of `wideopen footage`; default all, or none with --scene-dir.", false},
+     "Scenes of `wideopen footage`; default six of them, or none with --scene-dir.", false},
     {"--scene-dir", NULL, "DIR",
      "Another scene: pinhole.exr, depth.exr, layer1.exr, layer1_depth.exr ..., and truth.exr or "
      "reference.exr; or what `wideopen footage` makes.",
@@ -40,6 +40,10 @@ static const wo_option options[] = {
      "The method that the others are held against; default hybrid, or the plugin's default.",
      false},
     {"--tolerance", NULL, "X", "Part of a time that is noise of the clock, 0..1; default 0.1.",
+     false},
+    {"--clock", NULL, "WHICH",
+     "The time that counts: wall, or cpu (of all threads together) where other work disturbs; "
+     "default wall.",
      false},
     {"--converged", NULL, "N",
      "Rays of the pictures that sampling errors are taken from, 0 = none; default 4096.", false},

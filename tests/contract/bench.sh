@@ -75,6 +75,7 @@ mistake --repeats 0
 mistake --repeats 17
 mistake --size 64
 mistake --tolerance 2
+mistake --clock sun
 mistake --set fStop
 mistake --set fStop=-1
 mistake --set samples=4
@@ -115,25 +116,25 @@ checks=$((checks + 1))
 ! grep -q -e 'src=' -e '<link' -e '<script' out/bench.html || fail "bench.html needs other files"
 
 # 2 scenes, as given twice, 5 methods, 4 settings.
-table out/bench.csv 'n != 20 { print "fields: " n " in " $0; bad = 1 }
+table out/bench.csv 'n != 21 { print "fields: " n " in " $0; bad = 1 }
     END { if (NR != 81) { print NR " lines"; bad = 1 } exit bad }'
 table out/bench.csv 'NR > 1 {
     wanted = f[3] == "broken" || f[3] == "holes" && f[4] == "samples" ? "failed" : "done"
     if (f[4] == "target" && f[3] != "hybrid" && f[3] != "liar") wanted = f[3] == "broken" ? "failed" : f[6]
     if (f[3] == "rays" && f[4] == "target") wanted = "left out"
     if (f[6] != wanted) { print f[6] " instead of " wanted ": " $0; bad = 1 }
-    if (f[6] == "done" && (f[7] != 2 || !(f[8] > 0) || !(f[11] > 0) || !(f[14] > 0))) {
+    if (f[6] == "done" && (f[7] != 2 || !(f[8] > 0) || !(f[9] > 0) || !(f[12] > 0) || !(f[15] > 0))) {
         print "numbers: " $0; bad = 1
     }
-    if (f[6] == "failed" && f[20] == "") { print "no reason: " $0; bad = 1 }
+    if (f[6] == "failed" && f[21] == "") { print "no reason: " $0; bad = 1 }
     } END { exit bad }'
 table out/bench.csv 'function near(a, b) { return a > 0.93 * b && a < 1.07 * b }
     f[6] == "done" {
         noise = f[4] == "target" ? 0.9 * f[5] : (f[3] == "rays" ? 0.2 : 0.1) / sqrt(f[5])
-        if (!near(f[16], noise)) { print "sampling error: " $0; bad = 1 }
-        if (f[3] == "hybrid" && !near(f[17], 1)) { print "calibration: " $0; bad = 1 }
-        if (f[3] == "liar" && !near(f[17], 3)) { print "calibration: " $0; bad = 1 }
-        if (f[3] == "rays" && f[15] != "") { print "estimate: " $0; bad = 1 }
+        if (!near(f[17], noise)) { print "sampling error: " $0; bad = 1 }
+        if (f[3] == "hybrid" && !near(f[18], 1)) { print "calibration: " $0; bad = 1 }
+        if (f[3] == "liar" && !near(f[18], 3)) { print "calibration: " $0; bad = 1 }
+        if (f[3] == "rays" && f[16] != "") { print "estimate: " $0; bad = 1 }
         seen++
     } END { if (seen != 40) { print seen " are done"; bad = 1 } exit bad }'
 checks=$((checks + 1))
@@ -155,13 +156,13 @@ value out.json summary.calibration.within 32
 checks=$((checks + 1))
 touch marker
 bench 0 bench -o out --scenes $scenes --plugin-path "$tricks" --methods rays,hybrid --samples 4 \
-    --targets none --repeats 1 --converged 0 --given sd
+    --targets none --repeats 1 --converged 0 --given sd --clock cpu
 newer=$(find out/footage -type f -newer marker)
 [ -z "$newer" ] || fail "made again: $newer"
 shows 'two-planes, sd: 64x36'
 shows 'On the front'
 shows 'hybrid'
-table out/bench.csv 'n != 20 || f[16] != "" && NR > 1 { print; bad = 1 }
+table out/bench.csv 'n != 21 || f[17] != "" && NR > 1 { print; bad = 1 }
     END { if (NR != 5) { print NR " lines"; bad = 1 } exit bad }'
 
 # Folders as scenes; one that holds nothing does not stop the others.
@@ -193,7 +194,7 @@ code=$?
 # --------------------------------------------------------------------------- the plugin as it is
 
 bench 0 bench -o real --scenes two-planes --samples 4 --targets 0.05 --repeats 1 --converged 16
-table real/bench.csv 'n != 20 || f[6] == "failed" { print; bad = 1 } END { exit bad }'
+table real/bench.csv 'n != 21 || f[6] == "failed" { print; bad = 1 } END { exit bad }'
 table real/bench.csv 'f[3] == "rays" && f[4] == "samples" && f[6] == "done" { seen++ }
     END { if (seen != 2) print seen " rows of rays"; exit seen != 2 }'
 well_formed real/two-planes-layers.svg

@@ -23,7 +23,7 @@ unset OCIO OFX_PLUGIN_PATH
 
 # ------------------------------------------------------------------------------- help and mistakes
 
-for command in list describe render footage lens compare sheet json; do
+for command in list describe render footage lens compare bench sheet json; do
     expect 0 "$command" --help
     shows "wideopen $command"
 done
