@@ -245,17 +245,30 @@ static void put_point(const wo_bench *bench, const wo_bench_shot *shot, int numb
     fputs("\n", out);
 }
 
+/* A scene without renders is one row. */
+static void put_missing(const wo_bench_shot *shot, FILE *out)
+{
+    put_field(out, shot->scene);
+    fprintf(out, ",%s,,,,%s,0,,,,,,,,,,,,,,", wo_bench_given(shot),
+            wo_bench_state_text(shot->state));
+    put_field(out, shot->why);
+    fputs("\n", out);
+}
+
 void wo_bench_csv(const wo_bench *bench, FILE *out)
 {
     fputs("scene,given,method,sampling,setting,state,runs,seconds,cpu_seconds,plugin_seconds,rays,"
           "psnr,ssim,"
           "relmse,rmse,estimated_error,sampling_error,sampling_over_estimated,front,beaten,why\n",
           out);
-    for (int i = 0; i < bench->shot_count; i++)
-        for (int p = 0; p < bench->method_count * bench->setting_count; p++)
-            if (bench->shots[i].state == WO_BENCH_DONE &&
-                bench->shots[i].points[p].state != WO_BENCH_WAITING)
-                put_point(bench, &bench->shots[i], p, out);
+    for (int i = 0; i < bench->shot_count; i++) {
+        const wo_bench_shot *const shot = &bench->shots[i];
+        if (shot->state == WO_BENCH_DONE)
+            for (int p = 0; p < bench->method_count * bench->setting_count; p++)
+                put_point(bench, shot, p, out);
+        else if (shot->state != WO_BENCH_WAITING)
+            put_missing(shot, out);
+    }
 }
 
 static void json_point(const wo_bench *bench, const wo_bench_shot *shot, int number, wo_json *json)

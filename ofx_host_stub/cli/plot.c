@@ -43,20 +43,26 @@ static void sane_log_range(double *low, double *high)
     }
 }
 
-static const int log_digits[] = {1, 2, 5};
+/* First digits of the ticks of a decade; the coarse ones are among the fine ones. */
+typedef struct log_digits {
+    int count;
+    double digit[10];
+} log_digits;
+static const log_digits coarse = {3, {1, 2, 5}};
+static const log_digits fine = {10, {1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9}};
 
 /* The n-th of ..., 0.5, 1, 2, 5, 10, ...; 0 is 1. */
-static double log_tick(int n)
+static double log_tick(const log_digits *set, int n)
 {
-    const int power = n >= 0 ? n / 3 : -((2 - n) / 3);
-    return log_digits[n - 3 * power] * pow(10, power);
+    const int power = n >= 0 ? n / set->count : -((set->count - 1 - n) / set->count);
+    return set->digit[n - set->count * power] * pow(10, power);
 }
 
 /* The last one up to value. */
-static int log_tick_below(double value)
+static int log_tick_below(const log_digits *set, double value)
 {
-    int n = 3 * (int)floor(log10(value)) - 1;
-    while (log_tick(n + 1) <= value * (1 + 1e-9))
+    int n = set->count * (int)floor(log10(value)) - 1;
+    while (log_tick(set, n + 1) <= value * (1 + 1e-9))
         n++;
     return n;
 }
@@ -66,12 +72,13 @@ void wo_ticks_make_log(double low, double high, wo_ticks *ticks)
     *ticks = (wo_ticks){0};
     sane_log_range(&low, &high);
     const double decades = log10(high / low);
+    const log_digits *const set = decades <= 1.0001 ? &fine : &coarse;
     const int stride = decades <= 5 ? 1 : 3 * (1 + (int)(decades / 10));
-    int n = log_tick_below(low * (1 - 1e-6)) + 1;
+    int n = log_tick_below(set, low * (1 - 1e-6)) + 1;
     while (n % stride != 0)
         n++;
-    for (; ticks->count < WO_TICKS_MAX && log_tick(n) <= high * (1 + 1e-6); n += stride)
-        ticks->value[ticks->count++] = log_tick(n);
+    for (; ticks->count < WO_TICKS_MAX && log_tick(set, n) <= high * (1 + 1e-6); n += stride)
+        ticks->value[ticks->count++] = log_tick(set, n);
 }
 
 void wo_ticks_make(double low, double high, int wanted, wo_ticks *ticks)
@@ -163,8 +170,9 @@ void wo_axis_round(wo_axis *axis)
     }
     if (axis->log) {
         sane_log_range(&axis->low, &axis->high);
-        axis->low = log_tick(log_tick_below(axis->low));
-        axis->high = log_tick(log_tick_below(axis->high * (1 - 1e-6)) + 1);
+        const log_digits *const set = axis->high <= 4 * axis->low ? &fine : &coarse;
+        axis->low = log_tick(set, log_tick_below(set, axis->low));
+        axis->high = log_tick(set, log_tick_below(set, axis->high * (1 - 1e-6)) + 1);
         return;
     }
     sane_range(&axis->low, &axis->high);
@@ -214,7 +222,8 @@ static char *tick_text(const wo_axis *axis, const wo_ticks *ticks, int i, char *
     int decimals = ticks->decimals;
     if (axis->log) {
         const int power = (int)floor(log10(ticks->value[i]) + 1e-6);
-        decimals = power < -6 || power > 6 ? -1 : power < 0 ? -power : 0;
+        const bool half = fabs(ticks->value[i] / pow(10, power) - 1.5) < 1e-6;
+        decimals = power < -6 || power > 6 ? -1 : power < half ? half - power : 0;
     }
     return wo_plot_number(text, size, ticks->value[i], decimals);
 }

@@ -20,8 +20,9 @@ typedef struct wo_ticks {
    that are empty, reversed or no numbers are taken for something near. */
 void wo_ticks_make(double low, double high, int wanted, wo_ticks *ticks);
 
-/* 1, 2 and 5 times powers of ten, or powers of ten alone when the range is long; low and high above
-   zero, others are taken for something near. step and decimals mean nothing here. */
+/* 1, 2 and 5 times powers of ten; more of them up to one decade, powers of ten alone beyond five.
+   low and high above zero, others are taken for something near. There may be none in a range of
+   less than a factor 1.5. step and decimals mean nothing here. */
 void wo_ticks_make_log(double low, double high, wo_ticks *ticks);
 
 /* Text of a number, with a point in every locale; decimals as in wo_ticks. Returns text. */

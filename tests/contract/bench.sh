@@ -175,7 +175,10 @@ cp stdout folders.json
 value folders.json scenes.0.state 'left out'
 value folders.json scenes.1.state failed
 value folders.json scenes.2.state done
+table folders/bench.csv 'n != 21 { print; bad = 1 } f[1] == "empty" { states = states f[6] ";" }
+    END { if (NR != 5 || states != "left out;failed;") { print NR ", " states; bad = 1 } exit bad }'
 present folders/"$(basename "$footage")"-layers.svg
+absent folders/empty-sd.svg
 absent folders/footage
 
 # A render that does not end, by its limit and by an interrupt.

@@ -71,6 +71,7 @@ static void test_log_axis(void **state)
     (void)state;
     check_log_ticks(0.02, 0.5, 5, 0.02, 0.5);
     check_log_ticks(0.021, 10, 8, 0.05, 10);
+    check_log_ticks(0.006, 0.016, 6, 0.006, 0.015);
     check_log_ticks(1, 1000, 10, 1, 1000);
     check_log_ticks(1e-4, 1e6, 6, 1e-4, 1e6);
     for (double low = 1e-9; low < 1e9; low *= 1.7)
