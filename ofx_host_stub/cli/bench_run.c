@@ -48,12 +48,22 @@ static wo_status set_method(set *s, int method, double seed, wo_error *error)
     return set_number(s, "seed", seed, error);
 }
 
+/* What the setting does not say has its default again: nothing is left of the render before. */
+static wo_status set_or_reset(set *s, const char *name, bool chosen, double value, wo_error *error)
+{
+    const wo_host_param_info *const param = wo_host_find_param(s->job->context, name);
+    if (!param && !chosen)
+        return WO_OK;
+    return set_number(s, name, chosen ? value : param->initial[0], error);
+}
+
 static wo_status set_quality(set *s, const wo_bench_setting *setting, wo_error *error)
 {
     if (wo_host_find_param(s->job->context, "sampling"))
         WO_TRY(wo_host_param_set_text(s->instance, "sampling",
                                       setting->adaptive ? "adaptive" : "fixed", error));
-    return set_number(s, setting->adaptive ? "targetError" : "samples", setting->value, error);
+    WO_TRY(set_or_reset(s, "samples", !setting->adaptive, setting->value, error));
+    return set_or_reset(s, "targetError", setting->adaptive, setting->value, error);
 }
 
 /* ------------------------------------------------------------------------------ one render */
