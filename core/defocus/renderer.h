@@ -43,6 +43,7 @@ typedef struct wo_renderer {
     const char *key;
     const char *label;
     bool estimates; /* its own error: frame->error is wanted always */
+    int32_t margin; /* px round the window for which scene->rays and the stack must hold tiles */
     /* Fills all of frame. report: rays, steps, tiles and omissions are added to. Takes what memory
        it needs from the context and gives it back; polls the context for an abort. */
     wo_status (*render)(const wo_defocus *scene, const wo_frame *frame, wo_report *report,
@@ -51,6 +52,7 @@ typedef struct wo_renderer {
 
 #define WO_RENDERER_LIST(X)                                                                        \
     X(WO_METHOD_RAYS, wo_render_rays)                                                              \
+    X(WO_METHOD_FILTER, wo_render_filter)                                                          \
     X(WO_METHOD_REFERENCE, wo_render_reference)
 
 typedef enum wo_method {

@@ -2,7 +2,7 @@
 /* Copyright the WideOpen authors */
 #include "effects/lens_blur.h"
 
-#include "defocus/lens_rays.h"
+#include "defocus/renderer.h"
 #include "effects/lens_blur_plan.h"
 #include "optics/lens_choice.h"
 
@@ -71,6 +71,7 @@ wo_status wo_lens_blur_prepare(const wo_lens_blur_params *params, const wo_geome
                                            wo_thin_lens_coc(&setup->lens, 1 / params->depth_far))));
     setup->radius = radius;
     setup->reach = params->lens == WO_LENS_THIN ? radius : 1.25 * radius + 0.06 * width;
+    setup->margin = wo_renderer_of((wo_method)params->method)->margin;
     setup->v_max = radius / setup->lens.k;
     setup->v_min = -setup->v_max;
     if (setup->has_depth && radius >= WO_SHARP_PX) {
@@ -105,7 +106,8 @@ wo_lens_blur_areas wo_lens_blur_plan_areas(const wo_lens_blur_setup *setup,
         return areas;
     const double reach = setup->reach * fmax(1, geometry->pixel_stretch);
     const int32_t margin = (int32_t)ceil(reach) + WO_RAYS_MARGIN;
-    const wo_rect tiles = on_grid(window, WO_TILE_WIDTH, WO_TILE_HEIGHT);
+    const wo_rect tiles =
+        on_grid(wo_rect_grow(window, setup->margin, setup->margin), WO_TILE_WIDTH, WO_TILE_HEIGHT);
     areas.stack = wo_stack_grid(wo_rect_grow(tiles, margin, margin));
     /* Highlights are told from areas of light by whole tiles and those around them. */
     areas.layers = wo_rect_grow(on_grid(areas.stack, WO_TILE_WIDTH, WO_TILE_HEIGHT), WO_TILE_WIDTH,
