@@ -2,7 +2,7 @@
 /* Copyright the WideOpen authors */
 #include "effects/lens_blur.h"
 
-#include "defocus/lens_rays.h"
+#include "defocus/renderer.h"
 #include "effects/lens_blur_focus.h"
 #include "effects/lens_blur_plan.h"
 #include "optics/lens_choice.h"
@@ -81,6 +81,7 @@ wo_status wo_lens_blur_prepare(const wo_lens_blur_params *wanted, const wo_geome
     setup->tilt = 1;
     if (params->focus_by == WO_FOCUS_BY_PLANE && !setup->focus_map)
         setup->tilt = 1 / (1 - WO_FOCUS_TILT_MAX);
+    setup->margin = wo_renderer_of((wo_method)params->method)->margin;
     setup->v_max = radius / setup->lens.k;
     setup->v_min = -setup->v_max;
     if ((setup->has_depth || setup->focus_map) && radius >= WO_SHARP_PX) {
@@ -115,7 +116,8 @@ wo_lens_blur_areas wo_lens_blur_plan_areas(const wo_lens_blur_setup *setup,
         return areas;
     const double reach = setup->reach * setup->tilt * fmax(1, geometry->pixel_stretch);
     const int32_t margin = (int32_t)ceil(reach) + WO_RAYS_MARGIN;
-    const wo_rect tiles = on_grid(window, WO_TILE_WIDTH, WO_TILE_HEIGHT);
+    const wo_rect tiles =
+        on_grid(wo_rect_grow(window, setup->margin, setup->margin), WO_TILE_WIDTH, WO_TILE_HEIGHT);
     areas.stack = wo_stack_grid(wo_rect_grow(tiles, margin, margin));
     /* Highlights are told from areas of light by whole tiles and those around them. */
     areas.layers = wo_rect_grow(on_grid(areas.stack, WO_TILE_WIDTH, WO_TILE_HEIGHT), WO_TILE_WIDTH,

@@ -122,6 +122,7 @@ typedef struct wo_lens_blur_setup {
     double reach;   /* px: no ray of the lens goes farther, aberrations included */
     double tilt;    /* and so many times as far when it is tilted: 1..2 */
     double v_min, v_max;
+    int32_t margin;  /* px round a window that the method wants tiles for */
     int fill_levels; /* of the continuation of hidden surfaces; 0 = no depth, nothing to continue */
 } wo_lens_blur_setup;
 

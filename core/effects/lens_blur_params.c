@@ -33,8 +33,8 @@ static const char *const outputs[] = {"image", "coc",     "depth",      "rays",
 static const char *const output_labels[] = {
     "Image", "Circle of confusion", "Depth", "Rays", "Error", "Guessed", "Focus plane", NULL};
 
-static const char *const methods[] = {"hybrid", "rays", "reference", NULL};
-static const char *const method_labels[] = {"Hybrid", "Rays", "Reference", NULL};
+static const char *const methods[] = {"hybrid", "rays", "filter", "reference", NULL};
+static const char *const method_labels[] = {"Hybrid", "Rays", "Filter", "Reference", NULL};
 static const char *const samplings[] = {"fixed", "adaptive", NULL};
 static const char *const sampling_labels[] = {"Fixed", "Adaptive", NULL};
 
@@ -255,11 +255,17 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .label = "Method",
      .unit = "",
      .group = "quality",
-     .help = "How the blur is made. Rays: lens rays through the layers, the same number for every "
-             "pixel. Reference: the same by brute force, some 25 times slower, for checking.",
+     .help =
+         "How the blur is made. Hybrid: lens rays, and smoothing of what is far out of focus, as "
+         "much "
+         "as its own blur allows: the best picture for the time. Rays: lens rays alone. Filter: "
+         "every pixel gathers what blurs over it, from its neighbours and from as "
+         "many taps as there are samples on each side of the focus; at 64 samples some 4 times as "
+         "fast as rays, good for previews; it keeps two surfaces a pixel, and draws no colour "
+         "fringes. Reference: rays by brute force, some 25 times slower, for checking.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(method),
-     .initial = {WO_METHOD_RAYS},
+     .initial = {WO_METHOD_HYBRID},
      .min = 0,
      .max = WO_METHOD_COUNT - 1,
      .ui_min = 0,

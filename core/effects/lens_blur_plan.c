@@ -237,7 +237,8 @@ wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params
     if ((status = build_scene(plan, args, error)) != WO_OK)
         goto done;
     const double start = wo_seconds();
-    status = wo_lens_rays_create(&plan->context, &plan->stack, &plan->lens, plan->window,
+    status = wo_lens_rays_create(&plan->context, &plan->stack, &plan->lens,
+                                 wo_rect_grow(plan->window, plan->setup.margin, plan->setup.margin),
                                  plan->setup.reach * plan->setup.tilt *
                                      fmax(1, plan->geometry.pixel_stretch),
                                  &plan->rays, error);
