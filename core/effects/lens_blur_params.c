@@ -27,8 +27,8 @@ static const char *const outputs[] = {"image", "coc", "depth", "rays", "error", 
 static const char *const output_labels[] = {
     "Image", "Circle of confusion", "Depth", "Rays", "Error", "Guessed", NULL};
 
-static const char *const methods[] = {"rays", "reference", NULL};
-static const char *const method_labels[] = {"Rays", "Reference", NULL};
+static const char *const methods[] = {"rays", "spread", "reference", NULL};
+static const char *const method_labels[] = {"Rays", "Spread", "Reference", NULL};
 static const char *const samplings[] = {"fixed", "adaptive", NULL};
 static const char *const sampling_labels[] = {"Fixed", "Adaptive", NULL};
 
@@ -216,8 +216,12 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .label = "Method",
      .unit = "",
      .group = "quality",
-     .help = "How the blur is made. Rays: lens rays through the layers, the same number for every "
-             "pixel. Reference: the same by brute force, some 25 times slower, for checking.",
+     .help =
+         "How the blur is made. Rays: lens rays through the layers, the same number for every "
+         "pixel. Spread: every pixel's light is spread over its circle of confusion, distance by "
+         "distance, from front to back: no noise; Samples sets how finely distances are told "
+         "apart, twice as fine for four times as many. Reference: Rays by brute force, "
+         "some 25 times slower, for checking.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(method),
      .initial = {WO_METHOD_RAYS},

@@ -1,0 +1,553 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "defocus/spread_light.h"
+
+#include <math.h>
+#include <stdatomic.h>
+#include <string.h>
+
+/* Layered run-length spreading.
+
+   A row of the picture is made from its lights, bucket by bucket from the front: each light writes
+   where the levels of its point spread's row change into a row of differences, whose running sum
+   is the light of the bucket. Memory is a few rows for each worker, whatever the number of buckets;
+   rows are independent, and sums of whole numbers have no order.
+
+   Buckets are put together so that one surface may lie in many of them: along the lens opening the
+   parts that buckets cover are laid one beside the other until it is full, and only then over what
+   was laid first. Two halves of a slanted plane add up to a whole; a surface behind a blurred edge
+   fills what the edge leaves; what is behind a whole translucent surface is seen through it. */
+
+/* Light below this fraction is not followed further. */
+#define FAINT 1e-4
+
+/* The lens opening of one pixel, seen from behind what was laid so far. */
+typedef struct opening {
+    double c[4];
+    double guessed;
+    double laid;                       /* fraction that the newest surfaces cover */
+    double through_laid, through_rest; /* light that passes there, and in the rest */
+} opening;
+
+enum { PRESENT = 4, GUESSED, SUMS };
+
+/* Memory of a worker, for the pixels of a row. */
+typedef struct row_room {
+    uint64_t *steps;      /* [planes][width][4] differences */
+    double (*sums)[SUMS]; /* [width] */
+    opening *open;        /* [width] */
+} row_room;
+
+typedef struct spread_job {
+    const wo_defocus *scene;
+    const wo_frame *frame;
+    wo_spread_light light;
+    int32_t *holes; /* [h + 1][w + 1] pixels of light.rect that are not opaque, below and left */
+    row_room *room; /* [workers] */
+    int32_t width;
+    wo_report *parts; /* [workers] */
+    atomic_bool stop;
+    atomic_int done;
+} spread_job;
+
+/* Columns of a row that are made together. */
+typedef struct span {
+    int32_t x1, x2;
+} span;
+
+/* Adding this to a number below 2^51 leaves its integer in the low bits. */
+#define INTEGER 0x1.8p52
+#define UNIT    0x1p46
+#define CLASS   0x1p-12
+
+static uint64_t bits(double x)
+{
+    uint64_t b;
+    memcpy(&b, &x, sizeof b);
+    return b;
+}
+
+static void write_steps(const wo_point_step *step, const wo_point_step *end, const double c[4],
+                        int32_t from, int32_t width, uint64_t *row)
+{
+    uint64_t last[4] = {bits(INTEGER), bits(INTEGER), bits(INTEGER), bits(INTEGER)};
+    for (; step < end; step++) {
+        const int32_t x = from + step->x;
+        if (x >= width)
+            break;
+        uint64_t *to = row + 4 * (ptrdiff_t)(x > 0 ? x : 0);
+        for (int k = 0; k < 4; k++) {
+            const uint64_t now = bits((double)step->level[k] * c[k] + INTEGER);
+            to[k] += now - last[k];
+            last[k] = now;
+        }
+    }
+}
+
+static double class_unit(uint32_t plane)
+{
+    double unit = UNIT;
+    for (uint32_t class = plane / WO_LIGHT_KINDS; class > 0; class --)
+        unit *= CLASS;
+    return unit;
+}
+
+/* First light of a row's bucket at or right of x. */
+static const wo_light *first_from(const wo_light *low, const wo_light *high, int32_t x)
+{
+    while (low < high) {
+        const wo_light *middle = low + (high - low) / 2;
+        if (middle->x < x)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+enum { PLANES_MAX = WO_LIGHT_KINDS * WO_LIGHT_CLASSES };
+
+/* Writes the lights of a bucket into the differences of row y; touched: columns of each plane. */
+static int64_t write_bucket(const spread_job *job, const row_room *room, span s, int32_t y, int b,
+                            span touched[PLANES_MAX])
+{
+    const wo_spread_light *light = &job->light;
+    const wo_rect r = light->rect;
+    const int32_t reach = light->reach[b];
+    const int32_t width = s.x2 - s.x1;
+    int64_t written = 0;
+    double unit[PLANES_MAX];
+    for (int p = 0; p < light->planes; p++) {
+        touched[p] = (span){INT32_MAX, INT32_MIN};
+        unit[p] = class_unit((uint32_t)p);
+    }
+    const int32_t y1 = y - reach > r.y1 ? y - reach : r.y1;
+    const int32_t y2 = y + reach + 1 < r.y2 ? y + reach + 1 : r.y2;
+    for (int32_t from = y1; from < y2; from++) {
+        const size_t *first =
+            light->first + (size_t)(from - r.y1) * (size_t)(light->buckets + 1) + b;
+        const wo_light *const end = light->list + first[1];
+        for (const wo_light *l = first_from(light->list + first[0], end, s.x1 - reach);
+             l < end && l->x < s.x2 + reach; l++) {
+            const wo_point_spread *spread = &light->spreads[l->spread];
+            const wo_rect lit = spread->rect;
+            const int32_t x = l->x - s.x1;
+            if (y - from < lit.y1 || y - from >= lit.y2 || x + lit.x2 < 0 || x + lit.x1 >= width)
+                continue;
+            const uint32_t *row = spread->first + (y - from - lit.y1);
+            if (row[0] == row[1])
+                continue;
+            const double u = unit[l->plane];
+            const double c[4] = {(double)l->c[0] * u, (double)l->c[1] * u, (double)l->c[2] * u,
+                                 (double)l->c[3] * u};
+            write_steps(spread->steps + row[0], spread->steps + row[1], c, x, width,
+                        room->steps + 4 * (size_t)l->plane * (size_t)job->width);
+            written += row[1] - row[0];
+            span *t = &touched[l->plane];
+            t->x1 = x + lit.x1 < t->x1 ? x + lit.x1 : t->x1;
+            t->x2 = x + lit.x2 + 1 > t->x2 ? x + lit.x2 + 1 : t->x2;
+        }
+    }
+    return written;
+}
+
+/* Running sums of the differences of a plane, which become 0 again. */
+static void sum_plane(const row_room *room, int plane, int32_t stride, span t)
+{
+    uint64_t *steps = room->steps + 4 * (size_t)plane * (size_t)stride;
+    const double unit = 1 / class_unit((uint32_t)plane);
+    const int kind = plane % WO_LIGHT_KINDS;
+    uint64_t sum[4] = {0};
+    for (int32_t x = t.x1; x < t.x2; x++) {
+        double c[4];
+        for (int k = 0; k < 4; k++) {
+            sum[k] += steps[4 * (ptrdiff_t)x + k];
+            steps[4 * (ptrdiff_t)x + k] = 0;
+            c[k] = (double)(int64_t)sum[k] * unit;
+        }
+        double *to = room->sums[x];
+        to[PRESENT] += c[3];
+        if (kind == WO_LIGHT_CLEAR)
+            continue;
+        for (int k = 0; k < 4; k++)
+            to[k] += c[k];
+        to[GUESSED] += kind == WO_LIGHT_GUESSED ? c[3] : 0;
+    }
+}
+
+static double light_left(const opening *o)
+{
+    return o->laid * o->through_laid + (1 - o->laid) * o->through_rest;
+}
+
+/* Lays the surfaces of a bucket behind those before. */
+static void lay(opening *o, const double sums[SUMS])
+{
+    const double present = sums[PRESENT];
+    if (!(present > 1e-9) || light_left(o) <= FAINT)
+        return;
+    const double covers = fmin(present, 1);
+    const double clear = 1 - fmin(fmax(sums[3] / present, 0), 1);
+    const double beside = fmin(covers, 1 - o->laid);
+    const double over = covers - beside;
+    const double part = (beside * o->through_rest + over * o->through_laid) / present;
+    for (int k = 0; k < 4; k++)
+        o->c[k] += part * sums[k];
+    o->guessed += part * sums[GUESSED];
+    if (over > 0) {
+        o->through_rest = ((o->laid - over) * o->through_laid + beside * o->through_rest * clear) /
+                          (1 - over + 1e-300);
+        o->through_laid *= clear;
+        o->laid = over;
+    } else {
+        o->through_laid =
+            (o->laid * o->through_laid + beside * o->through_rest * clear) / (o->laid + beside);
+        o->laid += beside;
+    }
+}
+
+/* Lays what a bucket holds; true when some pixel still sees farther. */
+static bool lay_bucket(const spread_job *job, const row_room *room, int32_t width,
+                       span touched[PLANES_MAX])
+{
+    span all = {INT32_MAX, INT32_MIN};
+    for (int p = 0; p < job->light.planes; p++) {
+        span *t = &touched[p];
+        if (t->x1 >= t->x2)
+            continue;
+        t->x1 = t->x1 > 0 ? t->x1 : 0;
+        t->x2 = t->x2 < width ? t->x2 : width;
+        sum_plane(room, p, job->width, *t);
+        all.x1 = t->x1 < all.x1 ? t->x1 : all.x1;
+        all.x2 = t->x2 > all.x2 ? t->x2 : all.x2;
+    }
+    if (all.x1 >= all.x2)
+        return true;
+    for (int32_t x = all.x1; x < all.x2; x++) {
+        lay(&room->open[x], room->sums[x]);
+        memset(room->sums[x], 0, sizeof room->sums[x]);
+    }
+    for (int32_t x = 0; x < width; x++)
+        if (light_left(&room->open[x]) > FAINT)
+            return true;
+    return false;
+}
+
+static int32_t holes_in_row(const spread_job *job, int32_t y, int32_t x1, int32_t x2)
+{
+    const wo_rect r = job->light.rect;
+    if (y < r.y1 || y >= r.y2)
+        return 0;
+    x1 = (x1 < r.x1 ? r.x1 : x1) - r.x1;
+    x2 = (x2 > r.x2 ? r.x2 : x2) - r.x1;
+    const ptrdiff_t w = wo_rect_width(r) + 1;
+    const int32_t *below = job->holes + (y - r.y1) * w;
+    const int32_t *above = below + w;
+    return x1 < x2 ? above[x2] - above[x1] - below[x2] + below[x1] : 0;
+}
+
+static bool any_hole(const spread_job *job, wo_rect area)
+{
+    const wo_rect r = job->light.rect;
+    area = wo_rect_intersect(area, r);
+    if (!job->holes || wo_rect_empty(area))
+        return false;
+    const ptrdiff_t w = wo_rect_width(r) + 1;
+    const int32_t *below = job->holes + (area.y1 - r.y1) * w;
+    const int32_t *above = job->holes + (area.y2 - r.y1) * w;
+    const int32_t x1 = area.x1 - r.x1;
+    const int32_t x2 = area.x2 - r.x1;
+    return above[x2] - above[x1] - below[x2] + below[x1] > 0;
+}
+
+static wo_spread_place behind(const spread_job *job, int32_t tx, int32_t ty)
+{
+    const wo_ray_tile *tile = wo_lens_rays_at(job->scene->rays, tx, ty);
+    float v = INFINITY;
+    for (int s = 0; s < job->scene->stack->sheets; s++)
+        v = tile->bounds[s].v_min <= tile->bounds[s].v_max ? fminf(v, tile->bounds[s].v_min) : v;
+    return (wo_spread_place){tx * WO_TILE_WIDTH + WO_TILE_WIDTH / 2,
+                             ty * WO_TILE_HEIGHT + WO_TILE_HEIGHT / 2, (double)v};
+}
+
+static wo_rect tile_footprint(const spread_job *job, int32_t tx, int32_t ty)
+{
+    const int32_t reach =
+        (int32_t)ceilf(wo_lens_rays_at(job->scene->rays, tx, ty)->reach) + WO_RAYS_MARGIN;
+    return wo_rect_grow((wo_rect){tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT, (tx + 1) * WO_TILE_WIDTH,
+                                  (ty + 1) * WO_TILE_HEIGHT},
+                        reach, reach);
+}
+
+/* Fraction of the lens opening of a pixel behind which, at the farthest surface, the scene is
+   opaque: light left there saw something that no sheet holds. */
+static double opaque_behind(const spread_job *job, const wo_point_spread *spread, int32_t x,
+                            int32_t y)
+{
+    double clear = 0;
+    for (int32_t ey = spread->rect.y1; ey < spread->rect.y2; ey++) {
+        const uint32_t *row = spread->first + (ey - spread->rect.y1);
+        for (uint32_t i = row[0]; i + 1 < row[1]; i++) {
+            const wo_point_step *step = &spread->steps[i];
+            clear += (double)step->level[3] *
+                     holes_in_row(job, y - ey, x - step[1].x + 1, x - step->x + 1);
+        }
+    }
+    return fmin(fmax(1 - clear, 0), 1);
+}
+
+/* Colour straight through a pixel that saw nothing. */
+static void straight_through(const wo_stack *stack, int32_t x, int32_t y, float c[4])
+{
+    const ptrdiff_t at = wo_stack_at(stack, x, y);
+    float best = -INFINITY;
+    for (int s = 0; s < stack->sheets; s++) {
+        if (!(stack->v[s][at] > best))
+            continue;
+        best = stack->v[s][at];
+        for (int k = 0; k < 4; k++)
+            c[k] = stack->c[s][k][at];
+    }
+}
+
+static void finish_row(const spread_job *job, const row_room *room, span s, int32_t y)
+{
+    const wo_frame *frame = job->frame;
+    const int32_t ty = wo_tiles_of((wo_rect){s.x1, y, s.x1 + 1, y + 1}).y1;
+    int32_t tx = INT32_MIN;
+    const wo_point_spread *holes = NULL; /* NULL = none in sight of the tile */
+    for (int32_t x = s.x1; x < s.x2; x++) {
+        const int32_t column = wo_tiles_of((wo_rect){x, y, x + 1, y + 1}).x1;
+        if (column != tx) {
+            tx = column;
+            holes = any_hole(job, tile_footprint(job, tx, ty))
+                        ? wo_spread_light_at(&job->light, behind(job, tx, ty))
+                        : NULL;
+        }
+        const opening *o = &room->open[x - s.x1];
+        const size_t at = (size_t)(y - frame->window.y1) * (size_t)wo_rect_width(frame->window) +
+                          (size_t)(x - frame->window.x1);
+        float *c = frame->c[at];
+        const double left = light_left(o);
+        const double opaque = left <= FAINT ? 1 : holes ? opaque_behind(job, holes, x, y) : 1;
+        const double weight = o->c[3] + left * (1 - opaque);
+        if (!(weight > 1e-6)) {
+            straight_through(job->scene->stack, x, y, c);
+            frame->guessed[at] = 1;
+            continue;
+        }
+        for (int k = 0; k < 4; k++)
+            c[k] = (float)(o->c[k] / weight);
+        c[3] = fminf(c[3], 1);
+        const double lost = left > FAINT ? left * opaque : 0;
+        frame->guessed[at] = (float)fmin(fmax(o->guessed + lost, 0), 1);
+    }
+}
+
+static bool make_row(spread_job *job, const row_room *room, span s, int32_t y, wo_report *part)
+{
+    const int32_t width = s.x2 - s.x1;
+    for (int32_t x = 0; x < width; x++)
+        room->open[x] = (opening){.through_laid = 1, .through_rest = 1};
+    for (int b = 0; b < job->light.buckets; b++) {
+        span touched[PLANES_MAX];
+        if (wo_aborted(job->scene->context))
+            return false;
+        part->steps += write_bucket(job, room, s, y, b, touched);
+        if (!lay_bucket(job, room, width, touched))
+            break;
+    }
+    finish_row(job, room, s, y);
+    return true;
+}
+
+static bool active(const spread_job *job, int32_t tx, int32_t ty)
+{
+    const wo_frame *frame = job->frame;
+    const wo_rect tiles = frame->tiles;
+    const size_t index =
+        (size_t)(ty - tiles.y1) * (size_t)wo_rect_width(tiles) + (size_t)(tx - tiles.x1);
+    const wo_tile_class class = wo_lens_rays_at(job->scene->rays, tx, ty)->class;
+    return class != WO_TILE_EMPTY && class != WO_TILE_SHARP && !(frame->skip && frame->skip[index]);
+}
+
+/* Tiles between others that are cheaper made than left out. */
+enum { GAP = 2 };
+
+/* A row of tiles. */
+static void run_row(void *user, size_t index, unsigned worker)
+{
+    spread_job *job = user;
+    const wo_rect tiles = job->frame->tiles;
+    const int32_t ty = tiles.y1 + (int32_t)index;
+    for (int32_t tx = tiles.x1; tx < tiles.x2; tx++) {
+        if (!active(job, tx, ty))
+            continue;
+        int32_t last = tx;
+        for (int32_t next = tx + 1; next < tiles.x2 && next <= last + 1 + GAP; next++)
+            last = active(job, next, ty) ? next : last;
+        const wo_rect r = wo_rect_intersect(
+            job->frame->window, (wo_rect){tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT,
+                                          (last + 1) * WO_TILE_WIDTH, (ty + 1) * WO_TILE_HEIGHT});
+        for (int32_t y = r.y1; y < r.y2; y++) {
+            if (atomic_load_explicit(&job->stop, memory_order_relaxed))
+                return;
+            if (!make_row(job, &job->room[worker], (span){r.x1, r.x2}, y, &job->parts[worker]))
+                atomic_store(&job->stop, true);
+        }
+        tx = last;
+    }
+    const wo_context *context = job->scene->context;
+    const int done = atomic_fetch_add(&job->done, 1) + 1;
+    if (context->progress)
+        context->progress(context->progress_user, 0.95 * done / wo_rect_height(tiles));
+}
+
+/* Sharp and empty tiles; highlights. */
+static bool finish_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_tile_pixels *pixels,
+                        wo_tile_facts *facts, wo_report *part)
+{
+    (void)worker;
+    const spread_job *job = user;
+    const wo_defocus *scene = job->scene;
+    const wo_frame *frame = job->frame;
+    const bool made = active(job, tx, ty);
+    const wo_tile_class class = wo_lens_rays_at(scene->rays, tx, ty)->class;
+    if (wo_aborted(scene->context))
+        return false;
+    if (made) {
+        const int32_t left = tx * WO_TILE_WIDTH;
+        const int32_t low = ty * WO_TILE_HEIGHT;
+        const wo_rect r = wo_rect_intersect(
+            frame->window, (wo_rect){left, low, left + WO_TILE_WIDTH, low + WO_TILE_HEIGHT});
+        memset(pixels, 0, sizeof *pixels);
+        part->tiles[class]++;
+        for (int32_t y = r.y1; y < r.y2; y++) {
+            const size_t at =
+                (size_t)(y - frame->window.y1) * (size_t)wo_rect_width(frame->window) +
+                (size_t)(r.x1 - frame->window.x1);
+            const size_t n = (size_t)wo_rect_width(r);
+            memcpy(pixels->c[y - low] + (r.x1 - left), frame->c + at, n * sizeof frame->c[0]);
+            memcpy(pixels->guessed[y - low] + (r.x1 - left), frame->guessed + at,
+                   n * sizeof(float));
+        }
+    } else if (!wo_lens_rays_tile(scene->rays, scene->context, tx, ty, pixels, part)) {
+        return false;
+    }
+    wo_tile_highlights(scene, tx, ty, pixels, part);
+    for (int32_t y = 0; y < WO_TILE_HEIGHT; y++) {
+        for (int32_t x = 0; x < WO_TILE_WIDTH; x++) {
+            facts->rays[y][x] = class == WO_TILE_SHARP ? 1 : 0;
+            facts->error[y][x] = made ? NAN : 0;
+        }
+    }
+    return true;
+}
+
+/* Where the scene is not opaque, as a summed area. */
+static wo_status find_holes(spread_job *job, wo_error *error)
+{
+    const wo_stack *stack = job->scene->stack;
+    const wo_rect r = job->light.rect;
+    const size_t w = (size_t)wo_rect_width(r) + 1;
+    job->holes =
+        wo_new(job->scene->context, error, ((size_t)wo_rect_height(r) + 1) * w, sizeof *job->holes);
+    if (!job->holes)
+        return WO_ERR_NOMEM;
+    for (int32_t y = r.y1; y < r.y2; y++) {
+        int32_t *to = job->holes + (size_t)(y - r.y1 + 1) * w;
+        int32_t sum = 0;
+        for (int32_t x = r.x1; x < r.x2; x++) {
+            sum += stack->opaque[wo_stack_at(stack, x, y)] < 0.5f;
+            to[x - r.x1 + 1] = to[x - r.x1 + 1 - (ptrdiff_t)w] + sum;
+        }
+    }
+    if (job->holes[((size_t)wo_rect_height(r) + 1) * w - 1] == 0) {
+        wo_delete(job->scene->context, job->holes);
+        job->holes = NULL;
+    }
+    return WO_OK;
+}
+
+static wo_status prepare(spread_job *job, wo_error *error)
+{
+    const wo_context *context = job->scene->context;
+    const wo_rect tiles = job->frame->tiles;
+    const size_t workers = wo_workers(context);
+    WO_TRY(find_holes(job, error));
+    wo_spread_place *asked = NULL;
+    size_t count = 0;
+    if (job->holes) {
+        const size_t most = (size_t)wo_rect_width(tiles) * (size_t)wo_rect_height(tiles);
+        if (!(asked = wo_new(context, error, most, sizeof *asked)))
+            return WO_ERR_NOMEM;
+        for (int32_t ty = tiles.y1; ty < tiles.y2; ty++)
+            for (int32_t tx = tiles.x1; tx < tiles.x2; tx++)
+                if (active(job, tx, ty) && any_hole(job, tile_footprint(job, tx, ty)))
+                    asked[count++] = behind(job, tx, ty);
+    }
+    const wo_status status =
+        wo_spread_light_create(job->scene, job->light.rect, asked, count, &job->light, error);
+    wo_delete(context, asked);
+    if (status != WO_OK)
+        return status;
+    job->width = wo_rect_width(job->frame->window);
+    const size_t w = (size_t)job->width;
+    if (!(job->parts = wo_new(context, error, workers, sizeof *job->parts)) ||
+        !(job->room = wo_new(context, error, workers, sizeof *job->room)))
+        return WO_ERR_NOMEM;
+    for (size_t i = 0; i < workers; i++) {
+        row_room *room = &job->room[i];
+        if (!(room->steps =
+                  wo_new(context, error, (size_t)job->light.planes * w, 4 * sizeof *room->steps)) ||
+            !(room->sums = wo_new(context, error, w, sizeof *room->sums)) ||
+            !(room->open = wo_new(context, error, w, sizeof *room->open)))
+            return WO_ERR_NOMEM;
+    }
+    return WO_OK;
+}
+
+/* The part of the stack that active tiles see. */
+static wo_rect seen(const spread_job *job)
+{
+    const wo_rect tiles = job->frame->tiles;
+    wo_rect all = {0};
+    for (int32_t ty = tiles.y1; ty < tiles.y2; ty++)
+        for (int32_t tx = tiles.x1; tx < tiles.x2; tx++)
+            if (active(job, tx, ty))
+                all = wo_rect_union(all, tile_footprint(job, tx, ty));
+    return wo_rect_intersect(all, job->scene->stack->area);
+}
+
+static wo_status render(const wo_defocus *scene, const wo_frame *frame, wo_report *report,
+                        wo_error *error)
+{
+    const wo_context *context = scene->context;
+    spread_job job = {.scene = scene, .frame = frame};
+    job.light.rect = seen(&job);
+    wo_status status = WO_OK;
+    if (!wo_rect_empty(job.light.rect)) {
+        status = prepare(&job, error);
+        if (status == WO_OK) {
+            wo_run(context, run_row, &job, (size_t)wo_rect_height(frame->tiles));
+            if (atomic_load(&job.stop))
+                status = wo_fail(error, WO_ABORTED, "stopped by the user");
+        }
+        for (size_t i = 0; job.parts && i < wo_workers(context); i++)
+            wo_report_add(report, &job.parts[i]);
+    }
+    if (status == WO_OK)
+        status = wo_frame_tiles(scene, frame, 0.95, 1, finish_tile, &job, report, error);
+    for (size_t i = 0; job.room && i < wo_workers(context); i++) {
+        wo_delete(context, job.room[i].steps);
+        wo_delete(context, job.room[i].sums);
+        wo_delete(context, job.room[i].open);
+    }
+    wo_delete(context, job.room);
+    wo_delete(context, job.parts);
+    wo_delete(context, job.holes);
+    wo_spread_light_destroy(context, &job.light);
+    return status;
+}
+
+const wo_renderer wo_render_spread = {.key = "spread", .label = "Spread", .render = render};
