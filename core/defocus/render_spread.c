@@ -21,28 +21,50 @@
 /* Light below this fraction is not followed further. */
 #define FAINT 1e-4
 
-/* The lens opening of one pixel, seen from behind what was laid so far. */
+/* The lens opening of one colour. */
 typedef struct opening {
-    double c[4];
-    double guessed;
     double laid;                       /* fraction that the newest surfaces cover */
     double through_laid, through_rest; /* light that passes there, and in the rest */
+    double covered;                    /* light that was stopped */
 } opening;
 
-enum { PRESENT = 4, GUESSED, SUMS };
+/* Red, green, blue, all; or the last one for all of them, where the lens treats them alike. */
+enum { ALL = 3, COLOURS = 4 };
+
+/* A pixel as far as it is made. */
+typedef struct pixel {
+    double c[3];
+    double guessed;
+    opening open[COLOURS];
+    int32_t end; /* no light comes from buckets behind this one */
+} pixel;
+
+/* What a bucket sends to a pixel. */
+typedef struct bucket_sums {
+    double c[3];
+    double cover[COLOURS];
+    double present[COLOURS]; /* cover and what is there but lets light through */
+    double guessed;
+} bucket_sums;
 
 /* Memory of a worker, for the pixels of a row. */
 typedef struct row_room {
-    uint64_t *steps;      /* [planes][width][4] differences */
-    double (*sums)[SUMS]; /* [width] */
-    opening *open;        /* [width] */
+    uint64_t *steps;   /* [planes][width][4] differences */
+    bucket_sums *sums; /* [width] */
+    pixel *pixels;     /* [width] */
 } row_room;
+
+/* Of a cell of a sheet: it is one opaque surface, also with the cell to the right and above. */
+enum { FILLED = 1, FILLED_RIGHT = 2, FILLED_ABOVE = 4 };
 
 typedef struct spread_job {
     const wo_defocus *scene;
     const wo_frame *frame;
     wo_spread_light light;
     int32_t *holes; /* [h + 1][w + 1] pixels of light.rect that are not opaque, below and left */
+    uint8_t *filled[WO_SHEETS_MAX]; /* [cells] */
+    uint8_t *filled_memory;
+    int32_t *ends;  /* [tiles] of the frame: end_of */
     row_room *room; /* [workers] */
     int32_t width;
     wo_report *parts; /* [workers] */
@@ -165,13 +187,15 @@ static void sum_plane(const row_room *room, int plane, int32_t stride, span t)
             steps[4 * (ptrdiff_t)x + k] = 0;
             c[k] = (double)(int64_t)sum[k] * unit;
         }
-        double *to = room->sums[x];
-        to[PRESENT] += c[3];
-        if (kind == WO_LIGHT_CLEAR)
-            continue;
-        for (int k = 0; k < 4; k++)
-            to[k] += c[k];
-        to[GUESSED] += kind == WO_LIGHT_GUESSED ? c[3] : 0;
+        bucket_sums *to = &room->sums[x];
+        const bool surface = kind == WO_LIGHT_GIVEN || kind == WO_LIGHT_GUESSED;
+        for (int k = surface ? ALL : 0; k < COLOURS; k++) {
+            to->present[k] += c[k];
+            to->cover[k] += kind != WO_LIGHT_CLEAR ? c[k] : 0;
+        }
+        for (int k = 0; k < 3 && surface; k++)
+            to->c[k] += c[k];
+        to->guessed += kind == WO_LIGHT_GUESSED ? c[3] : 0;
     }
 }
 
@@ -180,34 +204,37 @@ static double light_left(const opening *o)
     return o->laid * o->through_laid + (1 - o->laid) * o->through_rest;
 }
 
-/* Lays the surfaces of a bucket behind those before. */
-static void lay(opening *o, const double sums[SUMS])
+/* Lays what covers so much behind what was laid before; returns the part of it that is seen. */
+static double lay(opening *o, double cover, double present)
 {
-    const double present = sums[PRESENT];
-    if (!(present > 1e-9) || light_left(o) <= FAINT)
-        return;
+    if (!(present > 1e-9))
+        return 0;
     const double covers = fmin(present, 1);
-    const double clear = 1 - fmin(fmax(sums[3] / present, 0), 1);
+    const double clear = 1 - fmin(fmax(cover / present, 0), 1);
     const double beside = fmin(covers, 1 - o->laid);
     const double over = covers - beside;
     const double part = (beside * o->through_rest + over * o->through_laid) / present;
-    for (int k = 0; k < 4; k++)
-        o->c[k] += part * sums[k];
-    o->guessed += part * sums[GUESSED];
+    const double passed = beside * o->through_rest * clear;
     if (over > 0) {
-        o->through_rest = ((o->laid - over) * o->through_laid + beside * o->through_rest * clear) /
-                          (1 - over + 1e-300);
+        const double rest = (o->laid - over) * o->through_laid + passed;
+        o->through_rest = over < 1 ? rest / (1 - over) : 0;
         o->through_laid *= clear;
         o->laid = over;
     } else {
-        o->through_laid =
-            (o->laid * o->through_laid + beside * o->through_rest * clear) / (o->laid + beside);
+        o->through_laid = (o->laid * o->through_laid + passed) / (o->laid + beside);
         o->laid += beside;
     }
+    o->covered += part * cover;
+    return part;
+}
+
+static bool sees_farther(const pixel *p, int b)
+{
+    return b < p->end && light_left(&p->open[ALL]) > FAINT;
 }
 
 /* Lays what a bucket holds; true when some pixel still sees farther. */
-static bool lay_bucket(const spread_job *job, const row_room *room, int32_t width,
+static bool lay_bucket(const spread_job *job, const row_room *room, int32_t width, int b,
                        span touched[PLANES_MAX])
 {
     span all = {INT32_MAX, INT32_MIN};
@@ -221,14 +248,22 @@ static bool lay_bucket(const spread_job *job, const row_room *room, int32_t widt
         all.x1 = t->x1 < all.x1 ? t->x1 : all.x1;
         all.x2 = t->x2 > all.x2 ? t->x2 : all.x2;
     }
-    if (all.x1 >= all.x2)
-        return true;
+    const int first = job->light.same ? ALL : 0;
     for (int32_t x = all.x1; x < all.x2; x++) {
-        lay(&room->open[x], room->sums[x]);
-        memset(room->sums[x], 0, sizeof room->sums[x]);
+        bucket_sums *sums = &room->sums[x];
+        pixel *p = &room->pixels[x];
+        if (sees_farther(p, b - 1)) {
+            double part[COLOURS];
+            for (int k = first; k < COLOURS; k++)
+                part[k] = lay(&p->open[k], sums->cover[k], sums->present[k]);
+            for (int k = 0; k < 3; k++)
+                p->c[k] += part[first + k < COLOURS ? first + k : ALL] * sums->c[k];
+            p->guessed += part[ALL] * sums->guessed;
+        }
+        memset(sums, 0, sizeof *sums);
     }
     for (int32_t x = 0; x < width; x++)
-        if (light_left(&room->open[x]) > FAINT)
+        if (sees_farther(&room->pixels[x], b))
             return true;
     return false;
 }
@@ -279,10 +314,10 @@ static wo_rect tile_footprint(const spread_job *job, int32_t tx, int32_t ty)
                         reach, reach);
 }
 
-/* Fraction of the lens opening of a pixel behind which, at the farthest surface, the scene is
-   opaque: light left there saw something that no sheet holds. */
-static double opaque_behind(const spread_job *job, const wo_point_spread *spread, int32_t x,
-                            int32_t y)
+/* Fraction of the lens opening of a pixel that looks, at the farthest surface, at places where the
+   scene as given is not opaque. Light that is left elsewhere saw something that no sheet holds. */
+static double holes_behind(const spread_job *job, const wo_point_spread *spread, int32_t x,
+                           int32_t y)
 {
     double clear = 0;
     for (int32_t ey = spread->rect.y1; ey < spread->rect.y2; ey++) {
@@ -293,7 +328,7 @@ static double opaque_behind(const spread_job *job, const wo_point_spread *spread
                      holes_in_row(job, y - ey, x - step[1].x + 1, x - step->x + 1);
         }
     }
-    return fmin(fmax(1 - clear, 0), 1);
+    return fmin(fmax(clear, 0), 1);
 }
 
 /* Colour straight through a pixel that saw nothing. */
@@ -310,51 +345,107 @@ static void straight_through(const wo_stack *stack, int32_t x, int32_t y, float 
     }
 }
 
-static void finish_row(const spread_job *job, const row_room *room, span s, int32_t y)
+/* The nearest bucket behind which nothing is seen from a tile: a surface without gaps, steps or
+   clear places fills its footprint. */
+static int32_t end_of(const spread_job *job, int32_t tx, int32_t ty)
+{
+    const wo_stack *stack = job->scene->stack;
+    const wo_ray_tile *tile = wo_lens_rays_at(job->scene->rays, tx, ty);
+    const wo_rect r = wo_rect_intersect(tile_footprint(job, tx, ty), stack->area);
+    const int32_t i1 = (r.x1 - stack->area.x1) / WO_CELL;
+    const int32_t i2 = (r.x2 - 1 - stack->area.x1) / WO_CELL;
+    const int32_t j1 = (r.y1 - stack->area.y1) / WO_CELL;
+    const int32_t j2 = (r.y2 - 1 - stack->area.y1) / WO_CELL;
+    int32_t end = INT32_MAX;
+    for (int s = 0; s < stack->sheets; s++) {
+        bool filled = tile->bounds[s].v_min <= tile->bounds[s].v_max;
+        float v_min = INFINITY;
+        for (int32_t j = j1; j <= j2 && filled; j++)
+            for (int32_t i = i1; i <= i2 && filled; i++) {
+                const ptrdiff_t at = (ptrdiff_t)j * stack->cell_columns + i;
+                const int wanted =
+                    FILLED | (i < i2 ? FILLED_RIGHT : 0) | (j < j2 ? FILLED_ABOVE : 0);
+                filled = (job->filled[s][at] & wanted) == wanted;
+                v_min = fminf(v_min, stack->cells[s][at].v_min);
+            }
+        const int32_t b = filled ? wo_spread_light_bucket(&job->light, (double)v_min) : end;
+        end = b < end ? b : end;
+    }
+    return end;
+}
+
+static void start_row(const spread_job *job, const row_room *room, span s, int32_t y)
+{
+    int32_t tx = INT32_MIN;
+    int32_t end = 0;
+    for (int32_t x = s.x1; x < s.x2; x++) {
+        const wo_rect tile = wo_tiles_of((wo_rect){x, y, x + 1, y + 1});
+        if (tile.x1 != tx)
+            end = job->ends[(size_t)(tile.y1 - job->frame->tiles.y1) *
+                                (size_t)wo_rect_width(job->frame->tiles) +
+                            (size_t)(tile.x1 - job->frame->tiles.x1)];
+        tx = tile.x1;
+        pixel *p = &room->pixels[x - s.x1];
+        *p = (pixel){.end = end};
+        for (int k = 0; k < COLOURS; k++)
+            p->open[k].through_laid = p->open[k].through_rest = 1;
+    }
+}
+
+static void finish_pixel(const spread_job *job, const pixel *p, const wo_point_spread *holes,
+                         int32_t x, int32_t y)
 {
     const wo_frame *frame = job->frame;
-    const int32_t ty = wo_tiles_of((wo_rect){s.x1, y, s.x1 + 1, y + 1}).y1;
+    const size_t at = (size_t)(y - frame->window.y1) * (size_t)wo_rect_width(frame->window) +
+                      (size_t)(x - frame->window.x1);
+    float *c = frame->c[at];
+    const double left = light_left(&p->open[ALL]);
+    const double clear =
+        holes && sees_farther(p, job->light.buckets) ? holes_behind(job, holes, x, y) : 0;
+    const int first = job->light.same ? ALL : 0;
+    double weight[COLOURS];
+    bool lost = false;
+    for (int k = first; k < COLOURS; k++) {
+        weight[k] = p->open[k].covered + fmin(light_left(&p->open[k]), clear);
+        lost |= !(weight[k] > 1e-6);
+    }
+    frame->guessed[at] = 1;
+    if (lost) {
+        straight_through(job->scene->stack, x, y, c);
+        return;
+    }
+    for (int k = 0; k < 3; k++)
+        c[k] = (float)(p->c[k] / weight[first + k < COLOURS ? first + k : ALL]);
+    c[3] = (float)fmin(p->open[ALL].covered / weight[ALL], 1);
+    const bool closed = !sees_farther(p, job->light.buckets);
+    const double unseen = closed ? 0 : left - fmin(left, clear);
+    frame->guessed[at] = (float)fmin(fmax(p->guessed / fmin(weight[ALL], 1) + unseen, 0), 1);
+}
+
+static void finish_row(const spread_job *job, const row_room *room, span s, int32_t y)
+{
     int32_t tx = INT32_MIN;
     const wo_point_spread *holes = NULL; /* NULL = none in sight of the tile */
     for (int32_t x = s.x1; x < s.x2; x++) {
-        const int32_t column = wo_tiles_of((wo_rect){x, y, x + 1, y + 1}).x1;
-        if (column != tx) {
-            tx = column;
-            holes = any_hole(job, tile_footprint(job, tx, ty))
-                        ? wo_spread_light_at(&job->light, behind(job, tx, ty))
+        const wo_rect tile = wo_tiles_of((wo_rect){x, y, x + 1, y + 1});
+        if (tile.x1 != tx)
+            holes = any_hole(job, tile_footprint(job, tile.x1, tile.y1))
+                        ? wo_spread_light_at(&job->light, behind(job, tile.x1, tile.y1))
                         : NULL;
-        }
-        const opening *o = &room->open[x - s.x1];
-        const size_t at = (size_t)(y - frame->window.y1) * (size_t)wo_rect_width(frame->window) +
-                          (size_t)(x - frame->window.x1);
-        float *c = frame->c[at];
-        const double left = light_left(o);
-        const double opaque = left <= FAINT ? 1 : holes ? opaque_behind(job, holes, x, y) : 1;
-        const double weight = o->c[3] + left * (1 - opaque);
-        if (!(weight > 1e-6)) {
-            straight_through(job->scene->stack, x, y, c);
-            frame->guessed[at] = 1;
-            continue;
-        }
-        for (int k = 0; k < 4; k++)
-            c[k] = (float)(o->c[k] / weight);
-        c[3] = fminf(c[3], 1);
-        const double lost = left > FAINT ? left * opaque : 0;
-        frame->guessed[at] = (float)fmin(fmax(o->guessed + lost, 0), 1);
+        tx = tile.x1;
+        finish_pixel(job, &room->pixels[x - s.x1], holes, x, y);
     }
 }
 
 static bool make_row(spread_job *job, const row_room *room, span s, int32_t y, wo_report *part)
 {
-    const int32_t width = s.x2 - s.x1;
-    for (int32_t x = 0; x < width; x++)
-        room->open[x] = (opening){.through_laid = 1, .through_rest = 1};
+    start_row(job, room, s, y);
     for (int b = 0; b < job->light.buckets; b++) {
         span touched[PLANES_MAX];
         if (wo_aborted(job->scene->context))
             return false;
         part->steps += write_bucket(job, room, s, y, b, touched);
-        if (!lay_bucket(job, room, width, touched))
+        if (!lay_bucket(job, room, s.x2 - s.x1, b, touched))
             break;
     }
     finish_row(job, room, s, y);
@@ -469,6 +560,77 @@ static wo_status find_holes(spread_job *job, wo_error *error)
     return WO_OK;
 }
 
+/* True when two places of a sheet are one opaque surface. */
+static bool one_surface(const spread_job *job, int s, int32_t x, int32_t y, int32_t dx, int32_t dy)
+{
+    const wo_stack *stack = job->scene->stack;
+    if (x + dx >= stack->area.x2 || y + dy >= stack->area.y2)
+        return false;
+    const ptrdiff_t at = wo_stack_at(stack, x, y);
+    const ptrdiff_t to = wo_stack_at(stack, x + dx, y + dy);
+    const float opaque = 1 - (float)FAINT;
+    return stack->c[s][ALL][at] >= opaque && stack->c[s][ALL][to] >= opaque &&
+           fabsf(stack->v[s][at] - stack->v[s][to]) <=
+               WO_CONNECT_PX / (float)job->light.px_per_dioptre;
+}
+
+static void fill_cells(void *user, size_t index, unsigned worker)
+{
+    (void)worker;
+    const spread_job *job = user;
+    const wo_stack *stack = job->scene->stack;
+    const int32_t y1 = stack->area.y1 + (int32_t)index * WO_CELL;
+    for (int s = 0; s < stack->sheets; s++) {
+        for (int32_t i = 0; i < stack->cell_columns; i++) {
+            const int32_t x1 = stack->area.x1 + i * WO_CELL;
+            uint8_t filled = FILLED | FILLED_RIGHT | FILLED_ABOVE;
+            for (int32_t y = y1; y < y1 + WO_CELL; y++)
+                for (int32_t x = x1; x < x1 + WO_CELL; x++) {
+                    const bool last_x = x + 1 == x1 + WO_CELL;
+                    const bool last_y = y + 1 == y1 + WO_CELL;
+                    if (!one_surface(job, s, x, y, 1, 0))
+                        filled &= (uint8_t) ~(last_x ? FILLED_RIGHT : FILLED);
+                    if (!one_surface(job, s, x, y, 0, 1))
+                        filled &= (uint8_t) ~(last_y ? FILLED_ABOVE : FILLED);
+                }
+            job->filled[s][index * (size_t)stack->cell_columns + (size_t)i] = filled;
+        }
+    }
+}
+
+static void find_ends(void *user, size_t index, unsigned worker)
+{
+    (void)worker;
+    const spread_job *job = user;
+    const wo_rect tiles = job->frame->tiles;
+    const size_t columns = (size_t)wo_rect_width(tiles);
+    const int32_t ty = tiles.y1 + (int32_t)index;
+    for (size_t i = 0; i < columns; i++)
+        job->ends[index * columns + i] = end_of(job, tiles.x1 + (int32_t)i, ty);
+}
+
+/* How far each tile sees. */
+static wo_status close_tiles(spread_job *job, wo_error *error)
+{
+    const wo_context *context = job->scene->context;
+    const wo_stack *stack = job->scene->stack;
+    const wo_rect tiles = job->frame->tiles;
+    const size_t cells = (size_t)stack->cell_columns * (size_t)stack->cell_rows;
+    job->filled_memory =
+        wo_new(context, error, cells * (size_t)stack->sheets, sizeof *job->filled_memory);
+    if (!job->filled_memory)
+        return WO_ERR_NOMEM;
+    for (int s = 0; s < stack->sheets; s++)
+        job->filled[s] = job->filled_memory + cells * (size_t)s;
+    job->ends = wo_new(context, error, (size_t)wo_rect_width(tiles) * (size_t)wo_rect_height(tiles),
+                       sizeof *job->ends);
+    if (!job->ends)
+        return WO_ERR_NOMEM;
+    wo_run(context, fill_cells, job, (size_t)stack->cell_rows);
+    wo_run(context, find_ends, job, (size_t)wo_rect_height(tiles));
+    return WO_OK;
+}
+
 static wo_status prepare(spread_job *job, wo_error *error)
 {
     const wo_context *context = job->scene->context;
@@ -491,6 +653,7 @@ static wo_status prepare(spread_job *job, wo_error *error)
     wo_delete(context, asked);
     if (status != WO_OK)
         return status;
+    WO_TRY(close_tiles(job, error));
     job->width = wo_rect_width(job->frame->window);
     const size_t w = (size_t)job->width;
     if (!(job->parts = wo_new(context, error, workers, sizeof *job->parts)) ||
@@ -501,7 +664,7 @@ static wo_status prepare(spread_job *job, wo_error *error)
         if (!(room->steps =
                   wo_new(context, error, (size_t)job->light.planes * w, 4 * sizeof *room->steps)) ||
             !(room->sums = wo_new(context, error, w, sizeof *room->sums)) ||
-            !(room->open = wo_new(context, error, w, sizeof *room->open)))
+            !(room->pixels = wo_new(context, error, w, sizeof *room->pixels)))
             return WO_ERR_NOMEM;
     }
     return WO_OK;
@@ -541,11 +704,13 @@ static wo_status render(const wo_defocus *scene, const wo_frame *frame, wo_repor
     for (size_t i = 0; job.room && i < wo_workers(context); i++) {
         wo_delete(context, job.room[i].steps);
         wo_delete(context, job.room[i].sums);
-        wo_delete(context, job.room[i].open);
+        wo_delete(context, job.room[i].pixels);
     }
     wo_delete(context, job.room);
     wo_delete(context, job.parts);
     wo_delete(context, job.holes);
+    wo_delete(context, job.filled_memory);
+    wo_delete(context, job.ends);
     wo_spread_light_destroy(context, &job.light);
     return status;
 }

@@ -50,16 +50,18 @@ static int32_t bucket_from_focus(double scale, double r)
     return (int32_t)rint(copysign(scale * log1p(fabs(r) / BUCKET_EVEN), r));
 }
 
-/* Places that will be used. */
+int32_t wo_spread_light_bucket(const wo_spread_light *light, double v)
+{
+    return light->nearest - bucket_from_focus(light->scale, v * light->px_per_dioptre);
+}
+
 typedef struct light_job {
     const wo_defocus *scene;
     wo_spread_light *light;
-    double scale;
-    int32_t nearest; /* bucket from the focus that is number 0 */
-    atomic_uchar *used;
-    size_t *rows;     /* [h] lights of each row */
-    uint32_t *bucket; /* [workers][row_max] of the lights of a row */
-    wo_light *room;   /* [workers][row_max] */
+    atomic_uchar *used; /* [places] */
+    size_t *rows;       /* [h] lights of each row */
+    uint32_t *bucket;   /* [workers][row_max] of the lights of a row */
+    wo_light *room;     /* [workers][row_max] */
     size_t row_max;
     uint8_t *classes; /* [workers] most */
     atomic_bool failed;
@@ -168,8 +170,10 @@ static void put(row_sink *sink, int32_t x, uint32_t place, uint32_t bucket, int 
     sink->count++;
 }
 
+/* left: the part of it that nothing in the pixel hides; clear: the part of what it lets through
+   that meets anything else behind. */
 static void put_surface(row_sink *sink, int32_t x, uint32_t place, uint32_t bucket, bool guessed,
-                        const float c[4], float left)
+                        bool coloured, const float c[4], float left, float clear)
 {
     const int kind = guessed ? WO_LIGHT_GUESSED : WO_LIGHT_GIVEN;
     const float peak = fmaxf(fabsf(c[0]), fmaxf(fabsf(c[1]), fabsf(c[2])));
@@ -185,12 +189,27 @@ static void put_surface(row_sink *sink, int32_t x, uint32_t place, uint32_t buck
         put(sink, x, place, bucket, kind, (const float[4]){0, 0, 0, all[3]});
         sink->classes = class > sink->classes ? class : sink->classes;
     }
-    if (c[3] < 1)
-        put(sink, x, place, bucket, WO_LIGHT_CLEAR, (const float[4]){0, 0, 0, left * (1 - c[3])});
+    if (c[3] < 1 && clear > 0) {
+        const float open = clear * left * (1 - c[3]);
+        put(sink, x, place, bucket, WO_LIGHT_CLEAR, (const float[4]){open, open, open, open});
+    }
+    if (coloured)
+        put(sink, x, place, bucket, WO_LIGHT_COVER, (const float[4]){all[3], all[3], all[3], 0});
 }
 
-/* All that lies in one pixel, from front to back. What lies behind another surface of the same
-   bucket is seen through it. */
+/* Two surfaces in one pixel. When their radii differ by less than NEAR_PX, what one hides of the
+   other, and the gaps in it that show the other, are the same for every ray: the one behind loses
+   what the one before covers, and the two add up. From WIDE_PX on a ray that goes through one meets
+   the other anywhere: that is left to the laying of buckets. In between, some of both. */
+#define NEAR_PX 1.0f
+#define WIDE_PX 8.0f
+
+static float apart(float px)
+{
+    return fminf(fmaxf((px - NEAR_PX) / (WIDE_PX - NEAR_PX), 0), 1);
+}
+
+/* All that lies in one pixel, from front to back. */
 static void put_pixel(const light_job *job, int32_t x, int32_t y, const bool level[WO_SHEETS_MAX],
                       row_sink *sink)
 {
@@ -208,14 +227,16 @@ static void put_pixel(const light_job *job, int32_t x, int32_t y, const bool lev
             order[i] = order[i - 1];
         order[i] = s;
     }
-    float left = 1;
-    int32_t last = INT32_MIN;
     for (int i = 0; i < n; i++) {
         const int s = order[i];
         const float v = stack->v[s][at];
-        const int32_t b = bucket_from_focus(job->scale, (double)v * light->px_per_dioptre);
-        left = b == last ? left : 1;
-        last = b;
+        const int32_t b = wo_spread_light_bucket(light, (double)v);
+        const float scale = (float)light->px_per_dioptre;
+        float left = 1;
+        for (int j = 0; j < i; j++)
+            left *=
+                1 - stack->c[order[j]][3][at] * (1 - apart(scale * (stack->v[order[j]][at] - v)));
+        const float clear = i + 1 < n ? apart(scale * (v - stack->v[order[i + 1]][at])) : 1;
         if (!(left > 0))
             continue;
         const float c[4] = {stack->c[s][0][at], stack->c[s][1][at], stack->c[s][2][at],
@@ -224,8 +245,7 @@ static void put_pixel(const light_job *job, int32_t x, int32_t y, const bool lev
             level[s] ? exact_place(light, v) : place_of(light, (wo_spread_place){x, y, (double)v});
         if (!sink->list)
             atomic_store_explicit(&job->used[place], 1, memory_order_relaxed);
-        put_surface(sink, x, place, (uint32_t)(job->nearest - b), stack->guessed[s], c, left);
-        left *= 1 - c[3];
+        put_surface(sink, x, place, (uint32_t)b, stack->guessed[s], !light->same, c, left, clear);
     }
 }
 
@@ -338,8 +358,8 @@ static wo_status survey(light_job *job, wo_error *error)
     const double r_max = (double)all.v_max * light->px_per_dioptre;
     light->radii =
         (int32_t)rint(light->fine * number_of_radius(fmax(fabs(r_min), fabs(r_max)))) + 1;
-    job->nearest = bucket_from_focus(job->scale, r_max);
-    light->buckets = job->nearest - bucket_from_focus(job->scale, r_min) + 1;
+    job->light->nearest = bucket_from_focus(job->light->scale, r_max);
+    light->buckets = job->light->nearest - bucket_from_focus(job->light->scale, r_min) + 1;
     const wo_rect r = light->rect;
     light->zones = (wo_rect){0, 0, 1, 1};
     if (zoned)
@@ -364,7 +384,7 @@ static void find_reach(const light_job *job)
         const double v = stands_for(light, i).v;
         const wo_rect r = light->spreads[i].rect;
         /* A rounded radius may lie in the bucket next to those of its lights. */
-        const int32_t b = job->nearest - bucket_from_focus(job->scale, v * light->px_per_dioptre);
+        const int32_t b = wo_spread_light_bucket(light, v);
         for (int32_t k = b - 1; k <= b + 1; k++)
             if (k >= 0 && k < light->buckets && light->reach[k] < r.x2)
                 light->reach[k] = r.x2;
@@ -425,7 +445,8 @@ wo_status wo_spread_light_create(const wo_defocus *scene, wo_rect rect,
 {
     const wo_context *context = scene->context;
     *light = (wo_spread_light){.rect = rect};
-    light_job job = {.scene = scene, .light = light, .scale = bucket_scale(scene)};
+    light->scale = bucket_scale(scene);
+    light_job job = {.scene = scene, .light = light};
     const wo_status status = fill(&job, asked, asked_count, error);
     wo_delete(context, (void *)job.used);
     wo_delete(context, job.rows);

@@ -14,7 +14,8 @@
 typedef enum wo_light_kind {
     WO_LIGHT_GIVEN,   /* r g b and coverage */
     WO_LIGHT_GUESSED, /* the same, of invented surfaces */
-    WO_LIGHT_CLEAR,   /* c[3]: what is there but lets light through, 1 - coverage */
+    WO_LIGHT_CLEAR,   /* all alike: what is there but lets light through, 1 - coverage */
+    WO_LIGHT_COVER,   /* coverage three times, for lenses with a point spread for each colour */
     WO_LIGHT_KINDS
 } wo_light_kind;
 
@@ -46,6 +47,8 @@ typedef struct wo_spread_light {
     double px_per_dioptre;
     double fine;   /* radii for each of those of a lens that is the same everywhere */
     int32_t radii; /* numbers of radii are -radii..radii */
+    double scale;  /* of the buckets */
+    int32_t nearest;
     bool same;     /* the lens is the same everywhere: one zone */
     wo_rect zones; /* in units of WO_ZONE px, absolute */
 } wo_spread_light;
@@ -64,6 +67,9 @@ WO_NODISCARD wo_status wo_spread_light_create(const wo_defocus *scene, wo_rect r
                                               const wo_spread_place *asked, size_t asked_count,
                                               wo_spread_light *light, wo_error *error);
 void wo_spread_light_destroy(const wo_context *context, wo_spread_light *light);
+
+/* The bucket of a vergence; outside 0..buckets - 1 for what lies before or behind all lights. */
+int32_t wo_spread_light_bucket(const wo_spread_light *light, double v);
 
 /* The point spread of a vergence at a pixel. */
 const wo_point_spread *wo_spread_light_at(const wo_spread_light *light, wo_spread_place place);
