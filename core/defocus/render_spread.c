@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
-#include "defocus/spread_light.h"
+#include "defocus/spread_row.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -67,44 +67,15 @@ typedef struct spread_job {
     int32_t *ends;  /* [tiles] of the frame: end_of */
     row_room *room; /* [workers] */
     int32_t width;
+    wo_spread_function *write;
     wo_report *parts; /* [workers] */
     atomic_bool stop;
     atomic_int done;
 } spread_job;
 
-/* Columns of a row that are made together. */
-typedef struct span {
-    int32_t x1, x2;
-} span;
-
-/* Adding this to a number below 2^51 leaves its integer in the low bits. */
-#define INTEGER 0x1.8p52
-#define UNIT    0x1p46
-#define CLASS   0x1p-12
-
-static uint64_t bits(double x)
-{
-    uint64_t b;
-    memcpy(&b, &x, sizeof b);
-    return b;
-}
-
-static void write_steps(const wo_point_step *step, const wo_point_step *end, const double c[4],
-                        int32_t from, int32_t width, uint64_t *row)
-{
-    uint64_t last[4] = {bits(INTEGER), bits(INTEGER), bits(INTEGER), bits(INTEGER)};
-    for (; step < end; step++) {
-        const int32_t x = from + step->x;
-        if (x >= width)
-            break;
-        uint64_t *to = row + 4 * (ptrdiff_t)(x > 0 ? x : 0);
-        for (int k = 0; k < 4; k++) {
-            const uint64_t now = bits((double)step->level[k] * c[k] + INTEGER);
-            to[k] += now - last[k];
-            last[k] = now;
-        }
-    }
-}
+/* Lights of class 0 are counted in steps of this part, see spread_light.h. */
+#define UNIT  0x1p46
+#define CLASS 0x1p-12
 
 static double class_unit(uint32_t plane)
 {
@@ -127,21 +98,24 @@ static const wo_light *first_from(const wo_light *low, const wo_light *high, int
     return low;
 }
 
-enum { PLANES_MAX = WO_LIGHT_KINDS * WO_LIGHT_CLASSES };
-
 /* Writes the lights of a bucket into the differences of row y; touched: columns of each plane. */
-static int64_t write_bucket(const spread_job *job, const row_room *room, span s, int32_t y, int b,
-                            span touched[PLANES_MAX])
+static int64_t write_bucket(const spread_job *job, const row_room *room, wo_span_x s, int32_t y,
+                            int b, wo_span_x touched[WO_LIGHT_PLANES])
 {
     const wo_spread_light *light = &job->light;
     const wo_rect r = light->rect;
     const int32_t reach = light->reach[b];
     const int32_t width = s.x2 - s.x1;
     int64_t written = 0;
-    double unit[PLANES_MAX];
+    wo_spread_row row = {.spreads = light->spreads,
+                         .x = s.x1,
+                         .width = width,
+                         .reach = reach,
+                         .steps = room->steps,
+                         .stride = 4 * (size_t)job->width};
     for (int p = 0; p < light->planes; p++) {
-        touched[p] = (span){INT32_MAX, INT32_MIN};
-        unit[p] = class_unit((uint32_t)p);
+        row.touched[p] = (wo_span_x){INT32_MAX, INT32_MIN};
+        row.unit[p] = class_unit((uint32_t)p);
     }
     const int32_t y1 = y - reach > r.y1 ? y - reach : r.y1;
     const int32_t y2 = y + reach + 1 < r.y2 ? y + reach + 1 : r.y2;
@@ -149,32 +123,15 @@ static int64_t write_bucket(const spread_job *job, const row_room *room, span s,
         const size_t *first =
             light->first + (size_t)(from - r.y1) * (size_t)(light->buckets + 1) + b;
         const wo_light *const end = light->list + first[1];
-        for (const wo_light *l = first_from(light->list + first[0], end, s.x1 - reach);
-             l < end && l->x < s.x2 + reach; l++) {
-            const wo_point_spread *spread = &light->spreads[l->spread];
-            const wo_rect lit = spread->rect;
-            const int32_t x = l->x - s.x1;
-            if (y - from < lit.y1 || y - from >= lit.y2 || x + lit.x2 < 0 || x + lit.x1 >= width)
-                continue;
-            const uint32_t *row = spread->first + (y - from - lit.y1);
-            if (row[0] == row[1])
-                continue;
-            const double u = unit[l->plane];
-            const double c[4] = {(double)l->c[0] * u, (double)l->c[1] * u, (double)l->c[2] * u,
-                                 (double)l->c[3] * u};
-            write_steps(spread->steps + row[0], spread->steps + row[1], c, x, width,
-                        room->steps + 4 * (size_t)l->plane * (size_t)job->width);
-            written += row[1] - row[0];
-            span *t = &touched[l->plane];
-            t->x1 = x + lit.x1 < t->x1 ? x + lit.x1 : t->x1;
-            t->x2 = x + lit.x2 + 1 > t->x2 ? x + lit.x2 + 1 : t->x2;
-        }
+        written +=
+            job->write(&row, first_from(light->list + first[0], end, s.x1 - reach), end, y - from);
     }
+    memcpy(touched, row.touched, sizeof row.touched);
     return written;
 }
 
 /* Running sums of the differences of a plane, which become 0 again. */
-static void sum_plane(const row_room *room, int plane, int32_t stride, span t)
+static void sum_plane(const row_room *room, int plane, int32_t stride, wo_span_x t)
 {
     uint64_t *steps = room->steps + 4 * (size_t)plane * (size_t)stride;
     const double unit = 1 / class_unit((uint32_t)plane);
@@ -235,11 +192,11 @@ static bool sees_farther(const pixel *p, int b)
 
 /* Lays what a bucket holds; true when some pixel still sees farther. */
 static bool lay_bucket(const spread_job *job, const row_room *room, int32_t width, int b,
-                       span touched[PLANES_MAX])
+                       wo_span_x touched[WO_LIGHT_PLANES])
 {
-    span all = {INT32_MAX, INT32_MIN};
+    wo_span_x all = {INT32_MAX, INT32_MIN};
     for (int p = 0; p < job->light.planes; p++) {
-        span *t = &touched[p];
+        wo_span_x *t = &touched[p];
         if (t->x1 >= t->x2)
             continue;
         t->x1 = t->x1 > 0 ? t->x1 : 0;
@@ -374,7 +331,7 @@ static int32_t end_of(const spread_job *job, int32_t tx, int32_t ty)
     return end;
 }
 
-static void start_row(const spread_job *job, const row_room *room, span s, int32_t y)
+static void start_row(const spread_job *job, const row_room *room, wo_span_x s, int32_t y)
 {
     int32_t tx = INT32_MIN;
     int32_t end = 0;
@@ -422,7 +379,7 @@ static void finish_pixel(const spread_job *job, const pixel *p, const wo_point_s
     frame->guessed[at] = (float)fmin(fmax(p->guessed / fmin(weight[ALL], 1) + unseen, 0), 1);
 }
 
-static void finish_row(const spread_job *job, const row_room *room, span s, int32_t y)
+static void finish_row(const spread_job *job, const row_room *room, wo_span_x s, int32_t y)
 {
     int32_t tx = INT32_MIN;
     const wo_point_spread *holes = NULL; /* NULL = none in sight of the tile */
@@ -437,11 +394,11 @@ static void finish_row(const spread_job *job, const row_room *room, span s, int3
     }
 }
 
-static bool make_row(spread_job *job, const row_room *room, span s, int32_t y, wo_report *part)
+static bool make_row(spread_job *job, const row_room *room, wo_span_x s, int32_t y, wo_report *part)
 {
     start_row(job, room, s, y);
     for (int b = 0; b < job->light.buckets; b++) {
-        span touched[PLANES_MAX];
+        wo_span_x touched[WO_LIGHT_PLANES];
         if (wo_aborted(job->scene->context))
             return false;
         part->steps += write_bucket(job, room, s, y, b, touched);
@@ -483,7 +440,7 @@ static void run_row(void *user, size_t index, unsigned worker)
         for (int32_t y = r.y1; y < r.y2; y++) {
             if (atomic_load_explicit(&job->stop, memory_order_relaxed))
                 return;
-            if (!make_row(job, &job->room[worker], (span){r.x1, r.x2}, y, &job->parts[worker]))
+            if (!make_row(job, &job->room[worker], (wo_span_x){r.x1, r.x2}, y, &job->parts[worker]))
                 atomic_store(&job->stop, true);
         }
         tx = last;
@@ -686,7 +643,8 @@ static wo_status render(const wo_defocus *scene, const wo_frame *frame, wo_repor
                         wo_error *error)
 {
     const wo_context *context = scene->context;
-    spread_job job = {.scene = scene, .frame = frame};
+    spread_job job = {
+        .scene = scene, .frame = frame, .write = wo_spread_choose(wo_cpu_detect(context->cpu))};
     job.light.rect = seen(&job);
     wo_status status = WO_OK;
     if (!wo_rect_empty(job.light.rect)) {

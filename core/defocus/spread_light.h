@@ -22,7 +22,7 @@ typedef enum wo_light_kind {
 /* Sums are whole numbers of steps, so that they have no order and nothing is left over behind a
    bright light: class n holds colours below 2^(4 + 12 n) in steps of 2^(12 n - 46). Coverage is
    always of class 0. */
-enum { WO_LIGHT_CLASSES = 9 };
+enum { WO_LIGHT_CLASSES = 9, WO_LIGHT_PLANES = WO_LIGHT_KINDS * WO_LIGHT_CLASSES };
 
 typedef struct wo_light {
     int32_t x;
