@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
+#include "defocus/spread_ends.h"
 #include "defocus/spread_row.h"
 
 #include <math.h>
@@ -17,9 +18,6 @@
    parts that buckets cover are laid one beside the other until it is full, and only then over what
    was laid first. Two halves of a slanted plane add up to a whole; a surface behind a blurred edge
    fills what the edge leaves; what is behind a whole translucent surface is seen through it. */
-
-/* Light below this fraction is not followed further. */
-#define FAINT 1e-4
 
 /* The lens opening of one colour. */
 typedef struct opening {
@@ -47,26 +45,21 @@ typedef struct bucket_sums {
     double guessed;
 } bucket_sums;
 
-/* Memory of a worker, for the pixels of a row. */
+/* A row on its way. */
 typedef struct row_room {
-    uint64_t *steps;   /* [planes][width][4] differences */
+    wo_spread_row row;
     bucket_sums *sums; /* [width] */
     pixel *pixels;     /* [width] */
+    bool open;         /* some pixel sees farther */
 } row_room;
-
-/* Of a cell of a sheet: it is one opaque surface, also with the cell to the right and above. */
-enum { FILLED = 1, FILLED_RIGHT = 2, FILLED_ABOVE = 4 };
 
 typedef struct spread_job {
     const wo_defocus *scene;
     const wo_frame *frame;
     wo_spread_light light;
     int32_t *holes; /* [h + 1][w + 1] pixels of light.rect that are not opaque, below and left */
-    uint8_t *filled[WO_SHEETS_MAX]; /* [cells] */
-    uint8_t *filled_memory;
-    int32_t *ends;  /* [tiles] of the frame: end_of */
-    row_room *room; /* [workers] */
-    int32_t width;
+    int32_t *ends;  /* [tiles] of the frame: buckets that each sees last */
+    row_room *room; /* [workers][WO_TILE_HEIGHT] */
     wo_spread_function *write;
     wo_report *parts; /* [workers] */
     atomic_bool stop;
@@ -98,42 +91,43 @@ static const wo_light *first_from(const wo_light *low, const wo_light *high, int
     return low;
 }
 
-/* Writes the lights of a bucket into the differences of row y; touched: columns of each plane. */
-static int64_t write_bucket(const spread_job *job, const row_room *room, wo_span_x s, int32_t y,
-                            int b, wo_span_x touched[WO_LIGHT_PLANES])
+/* Writes the lights of a bucket into the differences of rows y1..y2 - 1, which share what they read
+   of the scene. */
+static int64_t write_bucket(const spread_job *job, row_room *rooms, wo_span_x s, int32_t y1,
+                            int32_t y2, int b)
 {
     const wo_spread_light *light = &job->light;
     const wo_rect r = light->rect;
     const int32_t reach = light->reach[b];
-    const int32_t width = s.x2 - s.x1;
     int64_t written = 0;
-    wo_spread_row row = {.spreads = light->spreads,
-                         .x = s.x1,
-                         .width = width,
-                         .reach = reach,
-                         .steps = room->steps,
-                         .stride = 4 * (size_t)job->width};
-    for (int p = 0; p < light->planes; p++) {
-        row.touched[p] = (wo_span_x){INT32_MAX, INT32_MIN};
-        row.unit[p] = class_unit((uint32_t)p);
+    for (int32_t y = y1; y < y2; y++) {
+        wo_spread_row *row = &rooms[y - y1].row;
+        row->x = s.x1;
+        row->width = s.x2 - s.x1;
+        row->reach = reach;
+        for (int p = 0; p < light->planes; p++)
+            row->touched[p] = (wo_span_x){INT32_MAX, INT32_MIN};
     }
-    const int32_t y1 = y - reach > r.y1 ? y - reach : r.y1;
-    const int32_t y2 = y + reach + 1 < r.y2 ? y + reach + 1 : r.y2;
-    for (int32_t from = y1; from < y2; from++) {
+    const int32_t first_y = y1 - reach > r.y1 ? y1 - reach : r.y1;
+    const int32_t end_y = y2 + reach < r.y2 ? y2 + reach : r.y2;
+    for (int32_t from = first_y; from < end_y; from++) {
         const size_t *first =
             light->first + (size_t)(from - r.y1) * (size_t)(light->buckets + 1) + b;
+        if (first[0] == first[1])
+            continue;
         const wo_light *const end = light->list + first[1];
-        written +=
-            job->write(&row, first_from(light->list + first[0], end, s.x1 - reach), end, y - from);
+        const wo_light *const start = first_from(light->list + first[0], end, s.x1 - reach);
+        for (int32_t y = y1; y < y2; y++)
+            if (rooms[y - y1].open && y - from <= reach && from - y <= reach)
+                written += job->write(&rooms[y - y1].row, start, end, y - from);
     }
-    memcpy(touched, row.touched, sizeof row.touched);
     return written;
 }
 
 /* Running sums of the differences of a plane, which become 0 again. */
-static void sum_plane(const row_room *room, int plane, int32_t stride, wo_span_x t)
+static void sum_plane(const row_room *room, int plane, wo_span_x t)
 {
-    uint64_t *steps = room->steps + 4 * (size_t)plane * (size_t)stride;
+    uint64_t *steps = room->row.steps + (size_t)plane * room->row.stride;
     const double unit = 1 / class_unit((uint32_t)plane);
     const int kind = plane % WO_LIGHT_KINDS;
     uint64_t sum[4] = {0};
@@ -187,23 +181,23 @@ static double lay(opening *o, double cover, double present)
 
 static bool sees_farther(const pixel *p, int b)
 {
-    return b < p->end && light_left(&p->open[ALL]) > FAINT;
+    return b < p->end && light_left(&p->open[ALL]) > WO_SPREAD_FAINT;
 }
 
 /* Lays what a bucket holds; true when some pixel still sees farther. */
-static bool lay_bucket(const spread_job *job, const row_room *room, int32_t width, int b,
-                       wo_span_x touched[WO_LIGHT_PLANES])
+static bool lay_bucket(const spread_job *job, const row_room *room, int b)
 {
+    const int32_t width = room->row.width;
     wo_span_x all = {INT32_MAX, INT32_MIN};
     for (int p = 0; p < job->light.planes; p++) {
-        wo_span_x *t = &touched[p];
-        if (t->x1 >= t->x2)
+        wo_span_x t = room->row.touched[p];
+        t.x1 = t.x1 > 0 ? t.x1 : 0;
+        t.x2 = t.x2 < width ? t.x2 : width;
+        if (t.x1 >= t.x2)
             continue;
-        t->x1 = t->x1 > 0 ? t->x1 : 0;
-        t->x2 = t->x2 < width ? t->x2 : width;
-        sum_plane(room, p, job->width, *t);
-        all.x1 = t->x1 < all.x1 ? t->x1 : all.x1;
-        all.x2 = t->x2 > all.x2 ? t->x2 : all.x2;
+        sum_plane(room, p, t);
+        all.x1 = t.x1 < all.x1 ? t.x1 : all.x1;
+        all.x2 = t.x2 > all.x2 ? t.x2 : all.x2;
     }
     const int first = job->light.same ? ALL : 0;
     for (int32_t x = all.x1; x < all.x2; x++) {
@@ -262,15 +256,6 @@ static wo_spread_place behind(const spread_job *job, int32_t tx, int32_t ty)
                              ty * WO_TILE_HEIGHT + WO_TILE_HEIGHT / 2, (double)v};
 }
 
-static wo_rect tile_footprint(const spread_job *job, int32_t tx, int32_t ty)
-{
-    const int32_t reach =
-        (int32_t)ceilf(wo_lens_rays_at(job->scene->rays, tx, ty)->reach) + WO_RAYS_MARGIN;
-    return wo_rect_grow((wo_rect){tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT, (tx + 1) * WO_TILE_WIDTH,
-                                  (ty + 1) * WO_TILE_HEIGHT},
-                        reach, reach);
-}
-
 /* Fraction of the lens opening of a pixel that looks, at the farthest surface, at places where the
    scene as given is not opaque. Light that is left elsewhere saw something that no sheet holds. */
 static double holes_behind(const spread_job *job, const wo_point_spread *spread, int32_t x,
@@ -300,35 +285,6 @@ static void straight_through(const wo_stack *stack, int32_t x, int32_t y, float 
         for (int k = 0; k < 4; k++)
             c[k] = stack->c[s][k][at];
     }
-}
-
-/* The nearest bucket behind which nothing is seen from a tile: a surface without gaps, steps or
-   clear places fills its footprint. */
-static int32_t end_of(const spread_job *job, int32_t tx, int32_t ty)
-{
-    const wo_stack *stack = job->scene->stack;
-    const wo_ray_tile *tile = wo_lens_rays_at(job->scene->rays, tx, ty);
-    const wo_rect r = wo_rect_intersect(tile_footprint(job, tx, ty), stack->area);
-    const int32_t i1 = (r.x1 - stack->area.x1) / WO_CELL;
-    const int32_t i2 = (r.x2 - 1 - stack->area.x1) / WO_CELL;
-    const int32_t j1 = (r.y1 - stack->area.y1) / WO_CELL;
-    const int32_t j2 = (r.y2 - 1 - stack->area.y1) / WO_CELL;
-    int32_t end = INT32_MAX;
-    for (int s = 0; s < stack->sheets; s++) {
-        bool filled = tile->bounds[s].v_min <= tile->bounds[s].v_max;
-        float v_min = INFINITY;
-        for (int32_t j = j1; j <= j2 && filled; j++)
-            for (int32_t i = i1; i <= i2 && filled; i++) {
-                const ptrdiff_t at = (ptrdiff_t)j * stack->cell_columns + i;
-                const int wanted =
-                    FILLED | (i < i2 ? FILLED_RIGHT : 0) | (j < j2 ? FILLED_ABOVE : 0);
-                filled = (job->filled[s][at] & wanted) == wanted;
-                v_min = fminf(v_min, stack->cells[s][at].v_min);
-            }
-        const int32_t b = filled ? wo_spread_light_bucket(&job->light, (double)v_min) : end;
-        end = b < end ? b : end;
-    }
-    return end;
 }
 
 static void start_row(const spread_job *job, const row_room *room, wo_span_x s, int32_t y)
@@ -386,7 +342,7 @@ static void finish_row(const spread_job *job, const row_room *room, wo_span_x s,
     for (int32_t x = s.x1; x < s.x2; x++) {
         const wo_rect tile = wo_tiles_of((wo_rect){x, y, x + 1, y + 1});
         if (tile.x1 != tx)
-            holes = any_hole(job, tile_footprint(job, tile.x1, tile.y1))
+            holes = any_hole(job, wo_spread_footprint(job->scene, tile.x1, tile.y1))
                         ? wo_spread_light_at(&job->light, behind(job, tile.x1, tile.y1))
                         : NULL;
         tx = tile.x1;
@@ -394,18 +350,27 @@ static void finish_row(const spread_job *job, const row_room *room, wo_span_x s,
     }
 }
 
-static bool make_row(spread_job *job, const row_room *room, wo_span_x s, int32_t y, wo_report *part)
+static bool make_rows(spread_job *job, row_room *rooms, wo_span_x s, int32_t y1, int32_t y2,
+                      wo_report *part)
 {
-    start_row(job, room, s, y);
-    for (int b = 0; b < job->light.buckets; b++) {
-        wo_span_x touched[WO_LIGHT_PLANES];
+    for (int32_t y = y1; y < y2; y++) {
+        start_row(job, &rooms[y - y1], s, y);
+        rooms[y - y1].open = true;
+    }
+    bool open = true;
+    for (int b = 0; b < job->light.buckets && open; b++) {
         if (wo_aborted(job->scene->context))
             return false;
-        part->steps += write_bucket(job, room, s, y, b, touched);
-        if (!lay_bucket(job, room, s.x2 - s.x1, b, touched))
-            break;
+        part->steps += write_bucket(job, rooms, s, y1, y2, b);
+        open = false;
+        for (int32_t y = y1; y < y2; y++) {
+            row_room *room = &rooms[y - y1];
+            room->open = room->open && lay_bucket(job, room, b);
+            open |= room->open;
+        }
     }
-    finish_row(job, room, s, y);
+    for (int32_t y = y1; y < y2; y++)
+        finish_row(job, &rooms[y - y1], s, y);
     return true;
 }
 
@@ -437,12 +402,11 @@ static void run_row(void *user, size_t index, unsigned worker)
         const wo_rect r = wo_rect_intersect(
             job->frame->window, (wo_rect){tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT,
                                           (last + 1) * WO_TILE_WIDTH, (ty + 1) * WO_TILE_HEIGHT});
-        for (int32_t y = r.y1; y < r.y2; y++) {
-            if (atomic_load_explicit(&job->stop, memory_order_relaxed))
-                return;
-            if (!make_row(job, &job->room[worker], (wo_span_x){r.x1, r.x2}, y, &job->parts[worker]))
-                atomic_store(&job->stop, true);
-        }
+        if (atomic_load_explicit(&job->stop, memory_order_relaxed))
+            return;
+        if (!make_rows(job, &job->room[worker * WO_TILE_HEIGHT], (wo_span_x){r.x1, r.x2}, r.y1,
+                       r.y2, &job->parts[worker]))
+            atomic_store(&job->stop, true);
         tx = last;
     }
     const wo_context *context = job->scene->context;
@@ -517,77 +481,6 @@ static wo_status find_holes(spread_job *job, wo_error *error)
     return WO_OK;
 }
 
-/* True when two places of a sheet are one opaque surface. */
-static bool one_surface(const spread_job *job, int s, int32_t x, int32_t y, int32_t dx, int32_t dy)
-{
-    const wo_stack *stack = job->scene->stack;
-    if (x + dx >= stack->area.x2 || y + dy >= stack->area.y2)
-        return false;
-    const ptrdiff_t at = wo_stack_at(stack, x, y);
-    const ptrdiff_t to = wo_stack_at(stack, x + dx, y + dy);
-    const float opaque = 1 - (float)FAINT;
-    return stack->c[s][ALL][at] >= opaque && stack->c[s][ALL][to] >= opaque &&
-           fabsf(stack->v[s][at] - stack->v[s][to]) <=
-               WO_CONNECT_PX / (float)job->light.px_per_dioptre;
-}
-
-static void fill_cells(void *user, size_t index, unsigned worker)
-{
-    (void)worker;
-    const spread_job *job = user;
-    const wo_stack *stack = job->scene->stack;
-    const int32_t y1 = stack->area.y1 + (int32_t)index * WO_CELL;
-    for (int s = 0; s < stack->sheets; s++) {
-        for (int32_t i = 0; i < stack->cell_columns; i++) {
-            const int32_t x1 = stack->area.x1 + i * WO_CELL;
-            uint8_t filled = FILLED | FILLED_RIGHT | FILLED_ABOVE;
-            for (int32_t y = y1; y < y1 + WO_CELL; y++)
-                for (int32_t x = x1; x < x1 + WO_CELL; x++) {
-                    const bool last_x = x + 1 == x1 + WO_CELL;
-                    const bool last_y = y + 1 == y1 + WO_CELL;
-                    if (!one_surface(job, s, x, y, 1, 0))
-                        filled &= (uint8_t) ~(last_x ? FILLED_RIGHT : FILLED);
-                    if (!one_surface(job, s, x, y, 0, 1))
-                        filled &= (uint8_t) ~(last_y ? FILLED_ABOVE : FILLED);
-                }
-            job->filled[s][index * (size_t)stack->cell_columns + (size_t)i] = filled;
-        }
-    }
-}
-
-static void find_ends(void *user, size_t index, unsigned worker)
-{
-    (void)worker;
-    const spread_job *job = user;
-    const wo_rect tiles = job->frame->tiles;
-    const size_t columns = (size_t)wo_rect_width(tiles);
-    const int32_t ty = tiles.y1 + (int32_t)index;
-    for (size_t i = 0; i < columns; i++)
-        job->ends[index * columns + i] = end_of(job, tiles.x1 + (int32_t)i, ty);
-}
-
-/* How far each tile sees. */
-static wo_status close_tiles(spread_job *job, wo_error *error)
-{
-    const wo_context *context = job->scene->context;
-    const wo_stack *stack = job->scene->stack;
-    const wo_rect tiles = job->frame->tiles;
-    const size_t cells = (size_t)stack->cell_columns * (size_t)stack->cell_rows;
-    job->filled_memory =
-        wo_new(context, error, cells * (size_t)stack->sheets, sizeof *job->filled_memory);
-    if (!job->filled_memory)
-        return WO_ERR_NOMEM;
-    for (int s = 0; s < stack->sheets; s++)
-        job->filled[s] = job->filled_memory + cells * (size_t)s;
-    job->ends = wo_new(context, error, (size_t)wo_rect_width(tiles) * (size_t)wo_rect_height(tiles),
-                       sizeof *job->ends);
-    if (!job->ends)
-        return WO_ERR_NOMEM;
-    wo_run(context, fill_cells, job, (size_t)stack->cell_rows);
-    wo_run(context, find_ends, job, (size_t)wo_rect_height(tiles));
-    return WO_OK;
-}
-
 static wo_status prepare(spread_job *job, wo_error *error)
 {
     const wo_context *context = job->scene->context;
@@ -602,7 +495,7 @@ static wo_status prepare(spread_job *job, wo_error *error)
             return WO_ERR_NOMEM;
         for (int32_t ty = tiles.y1; ty < tiles.y2; ty++)
             for (int32_t tx = tiles.x1; tx < tiles.x2; tx++)
-                if (active(job, tx, ty) && any_hole(job, tile_footprint(job, tx, ty)))
+                if (active(job, tx, ty) && any_hole(job, wo_spread_footprint(job->scene, tx, ty)))
                     asked[count++] = behind(job, tx, ty);
     }
     const wo_status status =
@@ -610,16 +503,20 @@ static wo_status prepare(spread_job *job, wo_error *error)
     wo_delete(context, asked);
     if (status != WO_OK)
         return status;
-    WO_TRY(close_tiles(job, error));
-    job->width = wo_rect_width(job->frame->window);
-    const size_t w = (size_t)job->width;
+    WO_TRY(wo_spread_ends_create(job->scene, &job->light, tiles, &job->ends, error));
+    const size_t w = (size_t)wo_rect_width(job->frame->window);
     if (!(job->parts = wo_new(context, error, workers, sizeof *job->parts)) ||
-        !(job->room = wo_new(context, error, workers, sizeof *job->room)))
+        !(job->room = wo_new(context, error, workers * WO_TILE_HEIGHT, sizeof *job->room)))
         return WO_ERR_NOMEM;
-    for (size_t i = 0; i < workers; i++) {
+    const size_t planes = (size_t)job->light.planes;
+    for (size_t i = 0; i < workers * WO_TILE_HEIGHT; i++) {
         row_room *room = &job->room[i];
-        if (!(room->steps =
-                  wo_new(context, error, (size_t)job->light.planes * w, 4 * sizeof *room->steps)) ||
+        wo_spread_row *row = &room->row;
+        row->spreads = job->light.spreads;
+        row->stride = 4 * w;
+        for (uint32_t p = 0; p < planes; p++)
+            row->unit[p] = class_unit(p);
+        if (!(row->steps = wo_new(context, error, planes * w, 4 * sizeof *row->steps)) ||
             !(room->sums = wo_new(context, error, w, sizeof *room->sums)) ||
             !(room->pixels = wo_new(context, error, w, sizeof *room->pixels)))
             return WO_ERR_NOMEM;
@@ -635,7 +532,7 @@ static wo_rect seen(const spread_job *job)
     for (int32_t ty = tiles.y1; ty < tiles.y2; ty++)
         for (int32_t tx = tiles.x1; tx < tiles.x2; tx++)
             if (active(job, tx, ty))
-                all = wo_rect_union(all, tile_footprint(job, tx, ty));
+                all = wo_rect_union(all, wo_spread_footprint(job->scene, tx, ty));
     return wo_rect_intersect(all, job->scene->stack->area);
 }
 
@@ -659,15 +556,14 @@ static wo_status render(const wo_defocus *scene, const wo_frame *frame, wo_repor
     }
     if (status == WO_OK)
         status = wo_frame_tiles(scene, frame, 0.95, 1, finish_tile, &job, report, error);
-    for (size_t i = 0; job.room && i < wo_workers(context); i++) {
-        wo_delete(context, job.room[i].steps);
+    for (size_t i = 0; job.room && i < WO_TILE_HEIGHT * wo_workers(context); i++) {
+        wo_delete(context, job.room[i].row.steps);
         wo_delete(context, job.room[i].sums);
         wo_delete(context, job.room[i].pixels);
     }
     wo_delete(context, job.room);
     wo_delete(context, job.parts);
     wo_delete(context, job.holes);
-    wo_delete(context, job.filled_memory);
     wo_delete(context, job.ends);
     wo_spread_light_destroy(context, &job.light);
     return status;
