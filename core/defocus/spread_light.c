@@ -41,7 +41,7 @@ static double radius_of_number(double n)
 
 static double bucket_scale(const wo_defocus *scene)
 {
-    return fmin(sqrt(scene->quality.samples), BUCKET_FINEST);
+    return fmin(0.5 * sqrt(scene->quality.samples), BUCKET_FINEST);
 }
 
 /* From the focus: 0, rising to the front. */
