@@ -21,7 +21,9 @@ typedef struct wo_quality {
 typedef struct wo_defocus {
     const wo_context *context;
     const wo_stack *stack; /* without the light that the highlights took out of it */
-    const wo_lens *lens;   /* lens->count = the most rays a pixel may get */
+    const wo_lens *lens;   /* with quality.samples rays, or when adaptive the most of one pass */
+    const wo_lens *levels; /* [level_count] the same lens with more and more rays, when adaptive */
+    int level_count;
     const wo_highlights *highlights;
     const wo_lens_rays *rays; /* the class of every tile; renders one with all rays */
     wo_quality quality;

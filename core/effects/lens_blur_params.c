@@ -3,15 +3,20 @@
 #include "effects/lens_blur.h"
 
 #include "defocus/renderer.h"
+#include "focus/focus.h"
 #include "optics/lens_choice.h"
 #include "spectrum/bands.h"
 
 #define FIELD(name) offsetof(wo_lens_blur_params, name)
 
 const wo_param_group wo_lens_blur_groups[WO_LENS_BLUR_GROUPS] = {
-    {"camera", "Camera", true},     {"depth", "Depth and layers", true},
-    {"aperture", "Aperture", true}, {"lensModel", "Lens", false},
-    {"quality", "Quality", true},   {"view", "Output", true},
+    {"camera", "Camera", true},
+    {"focusControl", "Focus", false},
+    {"depth", "Depth and layers", true},
+    {"aperture", "Aperture", true},
+    {"lensModel", "Lens", false},
+    {"quality", "Quality", true},
+    {"view", "Output", true},
 };
 
 #define DEPTH_KEY(name, key, label)   key,
@@ -23,9 +28,10 @@ static const char *const channel_labels[] = {"Red or single channel", "Green", "
                                              NULL};
 static const char *const forms[] = {"iris", "star", "heart", NULL};
 static const char *const form_labels[] = {"Iris", "Star", "Heart", NULL};
-static const char *const outputs[] = {"image", "coc", "depth", "rays", "error", "guessed", NULL};
+static const char *const outputs[] = {"image", "coc",     "depth",      "rays",
+                                      "error", "guessed", "focusPlane", NULL};
 static const char *const output_labels[] = {
-    "Image", "Circle of confusion", "Depth", "Rays", "Error", "Guessed", NULL};
+    "Image", "Circle of confusion", "Depth", "Rays", "Error", "Guessed", "Focus plane", NULL};
 
 static const char *const methods[] = {"hybrid", "rays", "spread", "reference", NULL};
 static const char *const method_labels[] = {"Hybrid", "Rays", "Spread", "Reference", NULL};
@@ -45,6 +51,7 @@ static const char *const camera_labels[] = {"Parameters",
                                             "Metadata, own focus and f-number",
                                             NULL};
 
+#include "effects/focus_choices.inc.h"
 #include "effects/lens_choices.inc.h"
 
 const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
@@ -133,6 +140,7 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .max = 1,
      .ui_min = 0,
      .ui_max = 1},
+#include "effects/focus_params.inc.h"
     {.key = "useDepth",
      .label = "Use depth",
      .unit = "",
@@ -282,8 +290,9 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .label = "Target error",
      .unit = "",
      .group = "quality",
-     .help = "Adaptive sampling goes on until the estimated error of the displayed picture (black "
-             "0, white 1) is below this. 1/255 = 0.004 is one step of an 8-bit display.",
+     .help = "Adaptive sampling goes on until noise beyond this is not to be expected: until three "
+             "estimated standard errors of the displayed picture (black 0, white 1) are below it. "
+             "1/255 = 0.004 is one step of an 8-bit display.",
      .type = WO_PARAM_DOUBLE,
      .offset = FIELD(target_error),
      .initial = {0.004},
@@ -349,7 +358,8 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .help =
          "The image, or a view of the plan: the radius of the circle of confusion in px "
          "(positive in front of the focus, negative behind), the depth in metres, the lens rays "
-         "of each pixel, its estimated error, or how much of its light was guessed.",
+         "of each pixel, its estimated error, how much of its light was guessed, or "
+         "what is in front of the focus (blue), in it to half a px (green) and behind it (red).",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(output),
      .initial = {WO_OUTPUT_IMAGE},
@@ -388,4 +398,7 @@ const wo_clip wo_lens_blur_clips[WO_LENS_BLUR_CLIPS] = {
      .optional = true,
      .mask = true,
      .components = WO_COMPONENT_ALPHA | WO_COMPONENT_RGB | WO_COMPONENT_RGBA},
+    DEPTH("Focus", "Focus",
+          "Where the focus is, pixel by pixel, or how large the blur; see Focus clip is. The first "
+          "channel counts."),
 };

@@ -182,6 +182,8 @@ static wo_status render_frame(render_job *job, wo_report *report, wo_error *erro
     const wo_defocus scene = {.context = &plan->context,
                               .stack = &plan->stack,
                               .lens = &plan->lens,
+                              .levels = plan->level,
+                              .level_count = plan->levels,
                               .highlights = &plan->highlights,
                               .rays = &plan->rays,
                               .quality = plan->quality};
