@@ -33,8 +33,8 @@ static double radius_of_number(double n)
     return RADIUS_EVEN + (n - even) * (RADIUS_EVEN / RADII);
 }
 
-/* Buckets are BUCKET_EVEN / sqrt(samples) px of radius wide near the focus and grow in proportion
-   from about that radius on. */
+/* Buckets are 2 BUCKET_EVEN / sqrt(samples) px of radius wide near the focus and grow in proportion
+   from a radius of BUCKET_EVEN on. */
 #define BUCKET_EVEN 4.0
 
 #define BUCKET_FINEST 32.0

@@ -56,13 +56,14 @@ typedef struct wo_spread_light {
 /* Lenses that differ over the picture have one point spread for each zone of so many px. */
 #define WO_ZONE 128
 
-/* rect: of the stack's area. far[i]: vergences at places that will be asked for, together with
-   those of the scene. */
+/* A vergence at a pixel. */
 typedef struct wo_spread_place {
     int32_t x, y;
     double v;
 } wo_spread_place;
 
+/* The light of rect, which must lie inside the stack's area; polls for an abort. asked: what
+   wo_spread_light_at will be asked for, beside what the scene itself needs. */
 WO_NODISCARD wo_status wo_spread_light_create(const wo_defocus *scene, wo_rect rect,
                                               const wo_spread_place *asked, size_t asked_count,
                                               wo_spread_light *light, wo_error *error);
