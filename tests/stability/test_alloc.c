@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
+#include "defocus/renderer.h"
 #include "near.h"
 #include "optics/lens_choice.h"
 #include "scenes.h"
@@ -60,10 +61,11 @@ static scene two_layers(void)
     return s;
 }
 
-static void fail_each_allocation(int32_t lens)
+static void fail_each_allocation(int32_t lens, int32_t method)
 {
     scene s = two_layers();
     s.params.lens = lens;
+    s.params.method = method;
     s.params.wavelengths = 3;
     const wo_plan_args args = scene_args(&s, small);
     bank b;
@@ -110,8 +112,9 @@ static void fail_each_allocation(int32_t lens)
 static void every_allocation_fails_once(void **state)
 {
     (void)state;
-    fail_each_allocation(WO_LENS_THIN);
-    fail_each_allocation(WO_LENS_THICK);
+    for (int32_t method = 0; method < WO_METHOD_COUNT; method++)
+        fail_each_allocation(WO_LENS_THIN, method);
+    fail_each_allocation(WO_LENS_THICK, WO_METHOD_RAYS);
 }
 
 static void the_limit_of_one_allocation(void **state)
@@ -148,10 +151,10 @@ static bool aborted(void *user)
 }
 
 /* Stopped at every moment in turn, with one thread and with three. */
-static void stopped_at_every_poll(void **state)
+static void stop_at_every_poll(int32_t method)
 {
-    (void)state;
     scene s = two_layers();
+    s.params.method = method;
     wo_image want = scene_render(&s, NULL);
     const unsigned threads[] = {1, 3};
     for (size_t t = 0; t < WO_COUNT(threads); t++) {
@@ -182,6 +185,13 @@ static void stopped_at_every_poll(void **state)
     }
     picture_free(&want);
     scene_free(&s);
+}
+
+static void stopped_at_every_poll(void **state)
+{
+    (void)state;
+    for (int32_t method = 0; method < WO_METHOD_COUNT; method++)
+        stop_at_every_poll(method);
 }
 
 /* Enough polls: the longest stretch of work between two of them is short. */
