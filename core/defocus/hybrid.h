@@ -27,12 +27,14 @@ enum {
     WO_HYBRID_GUESSED,
     WO_HYBRID_NOISE, /* near, far, rest: square of half the difference between the halves of the
                         rays, in the displayed value */
-    WO_HYBRID_PLANES = WO_HYBRID_NOISE + 3
+    WO_HYBRID_JITTER = WO_HYBRID_NOISE + 3, /* the same of near and far together, in square roots of
+                                               light, which do not end at white */
+    WO_HYBRID_PLANES
 };
 
 enum { WO_HYBRID_CELL = 8, WO_HYBRID_TAPS_MAX = 64, WO_HYBRID_KERNELS = 33 };
 
-/* A kernel over whole pixels. gain: sum of squares of the weights, the noise that is left. */
+/* A kernel over whole pixels. gain: how much of the variance it leaves. */
 typedef struct wo_hybrid_kernel {
     int count;
     int8_t x[WO_HYBRID_TAPS_MAX], y[WO_HYBRID_TAPS_MAX];
@@ -53,7 +55,7 @@ void wo_hybrid_kernels(wo_hybrid_kernel kernels[WO_HYBRID_KERNELS]);
 typedef struct wo_hybrid_cell {
     uint8_t near, far; /* kernels */
     float noise[3];    /* means */
-    float own_noise;   /* of this cell alone, all parts */
+    float jitter;      /* of this cell alone: variance that smoothing may take away */
 } wo_hybrid_cell;
 
 typedef struct wo_hybrid {
@@ -70,6 +72,11 @@ typedef struct wo_hybrid {
     int32_t columns, rows; /* of cells */
     wo_hybrid_kernel kernels[WO_HYBRID_KERNELS];
 } wo_hybrid;
+
+/* Index of the kernel for a part with these sums of coverage and of coverage over vergence, at so
+   many rays a pixel. */
+int wo_hybrid_kernel_for(const wo_hybrid *hybrid, bool near, double rays, double coverage,
+                         double by_vergence);
 
 /* Fills the planes of one tile. false when stopped. */
 bool wo_hybrid_trace(wo_hybrid *hybrid, int32_t tx, int32_t ty, wo_report *part);

@@ -21,9 +21,12 @@ typedef struct wo_quality {
 typedef struct wo_defocus {
     const wo_context *context;
     const wo_stack *stack; /* without the light that the highlights took out of it */
-    const wo_lens *lens;   /* lens->count = the most rays a pixel may get */
+    const wo_lens *lens;   /* with quality.samples rays, or when adaptive the most of one pass */
+    const wo_lens *levels; /* [level_count] the same lens with more and more rays, when adaptive */
+    int level_count;
     const wo_highlights *highlights;
     const wo_lens_rays *rays; /* the class of every tile; renders one with all rays */
+    wo_rect extent;           /* where the picture has pixels */
     wo_quality quality;
 } wo_defocus;
 
@@ -54,6 +57,7 @@ typedef struct wo_renderer {
     X(WO_METHOD_HYBRID, wo_render_hybrid)                                                          \
     X(WO_METHOD_RAYS, wo_render_rays)                                                              \
     X(WO_METHOD_FILTER, wo_render_filter)                                                          \
+    X(WO_METHOD_SPREAD, wo_render_spread)                                                          \
     X(WO_METHOD_REFERENCE, wo_render_reference)
 
 typedef enum wo_method {
