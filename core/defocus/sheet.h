@@ -61,14 +61,30 @@ int wo_read_colour(const wo_image *image, wo_alpha alpha, int32_t x, int32_t y, 
 /* px that wo_sheet_load looks beyond a pixel. */
 #define WO_SHEET_LOAD_MARGIN 2
 
-/* Splits pixels that mix two surfaces (antialiased colour over unfiltered depth) into the part that
-   belongs to their own depth, which stays, and the part of the neighbouring surface, which goes
-   into edges, where that pixel is still free. Only steps of vergence that make a visible difference
-   of blur count (px_per_dioptre). edges must have the sheet's area and start as all NaN; *split is
-   added to. */
+/* Repairs antialiased depth: a pixel whose depth lies on a step between two surfaces, where it mixes
+   both and belongs to neither, gets the vergence of the one that has the larger part in it. The
+   surfaces are the nearest pixels on either side, at most WO_SHEET_REPAIR_MARGIN px away, from
+   where depth goes on flat or turns round: slopes, silhouettes that bend away and wires that are
+   too thin for a flat part stay as they are. Depth mixes in the unit it is given in, whatever that
+   is, also with a background at 1e10. Only a visible difference of blur counts (px_per_dioptre).
+   source->depth must be connected. mix, as large as the sheet, becomes the part of the nearer
+   surface in each repaired pixel's depth and NaN elsewhere; *repaired is added to, for pixels of
+   counted. */
+WO_NODISCARD wo_status wo_sheet_repair_depth(const wo_context *context,
+                                             const wo_sheet_source *source, double px_per_dioptre,
+                                             wo_rect counted, wo_sheet *sheet, float *mix,
+                                             int64_t *repaired, wo_error *error);
+#define WO_SHEET_REPAIR_MARGIN 4
+
+/* Splits pixels that mix two surfaces (antialiased colour over unfiltered or repaired depth) into
+   the part that belongs to their own depth, which stays, and the part of the neighbouring surface,
+   which goes into edges, where that pixel is still free. Only steps of vergence that make a visible
+   difference of blur count (px_per_dioptre). The parts are those that explain the colour; where the
+   two surfaces have much the same colour, those of mix (of wo_sheet_repair_depth; NULL = unknown).
+   edges must have the sheet's area and start as all NaN; *split is added to. */
 WO_NODISCARD wo_status wo_sheet_split_edges(const wo_context *context, double px_per_dioptre,
-                                            wo_sheet *sheet, wo_sheet *edges, int64_t *split,
-                                            wo_error *error);
+                                            const float *mix, wo_sheet *sheet, wo_sheet *edges,
+                                            int64_t *split, wo_error *error);
 #define WO_SHEET_SPLIT_MARGIN 3
 
 /* Invents what lies behind the farthest surfaces of the sheets: wherever a farther surface ends at

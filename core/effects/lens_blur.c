@@ -15,8 +15,8 @@ enum { FILL_LEVELS_MAX = 9 };
 /* Of a star without blades. */
 enum { WO_STAR_POINTS = 5 };
 
-/* px that loading, splitting and seeding look beyond a pixel, one after the other. */
-#define INPUT_MARGIN (WO_SHEET_LOAD_MARGIN + WO_SHEET_SPLIT_MARGIN + 1)
+/* px that loading, repair, splitting and seeding look beyond a pixel, one after the other. */
+#define INPUT_MARGIN (WO_SHEET_LOAD_MARGIN + WO_SHEET_REPAIR_MARGIN + WO_SHEET_SPLIT_MARGIN + 1)
 
 bool wo_lens_blur_has_table(const wo_lens_blur_params *p)
 {

@@ -51,29 +51,34 @@ static wo_status empty_sheet(const wo_context *context, wo_rect area, wo_sheet *
     return WO_OK;
 }
 
+static wo_sheet_source layer_source(const wo_plan *plan, const wo_plan_args *args, int layer)
+{
+    const wo_lens_blur_setup *setup = &plan->setup;
+    return (wo_sheet_source){
+        .colour = &args->inputs[2 * layer],
+        .depth = plan->params.use_depth ? &args->inputs[2 * layer + 1] : NULL,
+        .depth_channel = plan->params.depth_channel,
+        .alpha = args->alpha[2 * layer],
+        .reading = setup->reading,
+        .extent = plan->geometry.extent,
+        .format = plan->geometry.format,
+        .focal_px = setup->lens.focal_px,
+        .stretch = plan->geometry.pixel_stretch,
+        .v_origin = setup->lens.vf,
+        .v_min = setup->v_min,
+        .v_max = setup->v_max,
+    };
+}
+
 static wo_status load_layers(const wo_plan *plan, const wo_plan_args *args, wo_rect area,
                              wo_sheet sheets[SHEETS], wo_sheet_counts *counts, wo_error *error)
 {
     const wo_lens_blur_setup *setup = &plan->setup;
     for (int i = 0; i < WO_LENS_BLUR_LAYERS; i++) {
-        const wo_image *colour = &args->inputs[2 * i];
-        if (!setup->layer_used[i] || !colour->data)
+        if (!setup->layer_used[i] || !args->inputs[2 * i].data)
             continue;
         WO_TRY(wo_sheet_create(&plan->context, area, &sheets[i], error));
-        const wo_sheet_source source = {
-            .colour = colour,
-            .depth = plan->params.use_depth ? &args->inputs[2 * i + 1] : NULL,
-            .depth_channel = plan->params.depth_channel,
-            .alpha = args->alpha[2 * i],
-            .reading = setup->reading,
-            .extent = plan->geometry.extent,
-            .format = plan->geometry.format,
-            .focal_px = setup->lens.focal_px,
-            .stretch = plan->geometry.pixel_stretch,
-            .v_origin = setup->lens.vf,
-            .v_min = setup->v_min,
-            .v_max = setup->v_max,
-        };
+        const wo_sheet_source source = layer_source(plan, args, i);
         WO_TRY(wo_sheet_load(&plan->context, &source, plan->window, &sheets[i], counts, error));
         WO_TRY(go_on(&plan->context, error));
     }
@@ -122,6 +127,31 @@ static void note_layers(wo_plan *plan, const wo_sheet sheets[SHEETS], int64_t sp
         wo_report_leave_out(report, "connections to highlights", "no blurred highlight", 0, "");
 }
 
+/* Antialiased depth, then antialiased colour. */
+static wo_status mend_edges(wo_plan *plan, const wo_plan_args *args, int layer,
+                            wo_sheet sheets[SHEETS], int64_t *split, wo_error *error)
+{
+    const wo_context *context = &plan->context;
+    const wo_sheet_source source = layer_source(plan, args, layer);
+    wo_sheet *sheet = &sheets[layer];
+    const size_t n = (size_t)wo_rect_width(sheet->area) * (size_t)wo_rect_height(sheet->area);
+    float *mix = NULL;
+    wo_status status = WO_OK;
+    if (source.depth && source.depth->data) {
+        if (!(mix = wo_new_large(context, error, n, sizeof *mix)))
+            return WO_ERR_NOMEM;
+        status = wo_sheet_repair_depth(context, &source, plan->lens.px_per_dioptre, plan->window,
+                                       sheet, mix, &plan->report.mixed_depth, error);
+    }
+    if (status == WO_OK)
+        status = go_on(context, error);
+    if (status == WO_OK)
+        status = wo_sheet_split_edges(context, plan->lens.px_per_dioptre, mix, sheet,
+                                      &sheets[EDGES], split, error);
+    wo_delete(context, mix);
+    return status;
+}
+
 static wo_status build_scene(wo_plan *plan, const wo_plan_args *args, wo_error *error)
 {
     const wo_context *context = &plan->context;
@@ -146,8 +176,7 @@ static wo_status build_scene(wo_plan *plan, const wo_plan_args *args, wo_error *
         status = empty_sheet(context, area, &sheets[EDGES], error);
         for (int i = 0; status == WO_OK && i < WO_LENS_BLUR_LAYERS; i++)
             if (sheets[i].any && (status = go_on(context, error)) == WO_OK)
-                status = wo_sheet_split_edges(context, plan->lens.px_per_dioptre, &sheets[i],
-                                              &sheets[EDGES], &split, error);
+                status = mend_edges(plan, args, i, sheets, &split, error);
         if (status == WO_OK)
             status = go_on(context, error);
         if (status == WO_OK)

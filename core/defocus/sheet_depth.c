@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "defocus/sheet.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* px to the nearest unmixed pixel on either side, at most: a filter 3 px wide mixes three pixels
+   of an edge, and from the first of them to the other side it is three. */
+enum { RUN = 3, DIRECTIONS = 4 };
+/* A change of depth below this fraction of the whole step is the slope of a surface. */
+#define FLAT 0.08
+/* Two surfaces whose blur differs by less than this many px of radius need no repair, */
+#define STEP_PX 0.75
+/* nor a pixel whose own blur is as near to that of one of them. */
+#define OFF_PX 0.1
+
+typedef struct repair_job {
+    const wo_sheet_source *source;
+    wo_sheet *sheet;
+    wo_rect counted;
+    const float *v; /* [h][w] before any repair */
+    float *depth;   /* [h][w] samples as they were filtered; NaN = none */
+    float *mix;     /* [h][w] out */
+    int64_t *rows;
+    double step, off; /* dioptres */
+    int32_t w, h;
+} repair_job;
+
+static void depth_row(void *user, size_t index, unsigned worker)
+{
+    (void)worker;
+    repair_job *job = user;
+    const wo_image *image = job->source->depth;
+    const int last = image->components - 1;
+    const int channel = job->source->depth_channel < last ? job->source->depth_channel : last;
+    const wo_rect b = image->bounds;
+    const int32_t row = job->sheet->area.y1 + (int32_t)index;
+    const int32_t y = row < b.y1 ? b.y1 : row >= b.y2 ? b.y2 - 1 : row;
+    for (int32_t i = 0; i < job->w; i++) {
+        const int32_t column = job->sheet->area.x1 + i;
+        const int32_t x = column < b.x1 ? b.x1 : column >= b.x2 ? b.x2 - 1 : column;
+        const float z = wo_image_at(image, x, y)[channel];
+        job->depth[index * (size_t)job->w + (size_t)i] = isfinite(z) ? z : NAN;
+    }
+}
+
+/* A step of depth through a pixel along a line: the two surfaces it mixes. */
+typedef struct mixed {
+    size_t near, far; /* unmixed pixels */
+    double part;      /* of the near one in the depth */
+    double length;    /* px between them */
+} mixed;
+
+/* How far depth runs on from (x, y) in the direction (a, b), in the sense of sign; at most RUN. */
+static int run_of(const repair_job *job, int32_t x, int32_t y, int a, int b, int sign)
+{
+    const float *at = job->depth + (ptrdiff_t)y * job->w + x;
+    const ptrdiff_t next = (ptrdiff_t)b * job->w + a;
+    int n = 0;
+    while (n < RUN && x + (n + 1) * a >= 0 && x + (n + 1) * a < job->w && y + (n + 1) * b >= 0 &&
+           y + (n + 1) * b < job->h && (at[(n + 1) * next] - at[n * next]) * (float)sign > 0)
+        n++;
+    return n;
+}
+
+/* Gives up the end of a run that is the slope of a surface; false when it is slope to the end of
+   what was looked at. */
+static bool trim(const float *at, ptrdiff_t next, double flat, int *n)
+{
+    const int reached = *n;
+    while (*n > 0 && fabs((double)at[*n * next] - (double)at[(*n - 1) * next]) <= flat)
+        (*n)--;
+    return *n < RUN || reached < RUN;
+}
+
+/* Does depth step over the pixel in the direction (a, b), from one surface to another? */
+static bool step_along(const repair_job *job, int32_t x, int32_t y, int a, int b, mixed *out)
+{
+    const size_t here = (size_t)y * (size_t)job->w + (size_t)x;
+    const float *at = job->depth + here;
+    const ptrdiff_t next = (ptrdiff_t)b * job->w + a;
+    int up = run_of(job, x, y, a, b, 1);
+    const int sign = up > 0 ? 1 : -1;
+    up = up > 0 ? up : run_of(job, x, y, a, b, -1);
+    int down = run_of(job, x, y, -a, -b, -sign);
+    if (up == 0 || down == 0)
+        return false;
+    const double whole = fabs((double)at[up * next] - (double)at[-down * next]);
+    if (!trim(at, next, FLAT * whole, &up) || !trim(at, -next, FLAT * whole, &down) || up == 0 ||
+        down == 0)
+        return false;
+    const size_t one = here + (size_t)(up * next);
+    const size_t two = here - (size_t)(down * next);
+    const bool one_is_near = isnan(job->v[two]) || job->v[one] > job->v[two];
+    out->near = one_is_near ? one : two;
+    out->far = one_is_near ? two : one;
+    if (isnan(job->v[out->near]))
+        return false;
+    const double near_z = job->depth[out->near];
+    const double far_z = job->depth[out->far];
+    out->part = ((double)*at - far_z) / (near_z - far_z);
+    out->length = (up + down) * (a && b ? 1.41421356237309505 : 1);
+    return isnan(job->v[out->far]) || (double)job->v[out->near] - job->v[out->far] > job->step;
+}
+
+/* The shortest step over a pixel. */
+static bool find_step(const repair_job *job, int32_t x, int32_t y, mixed *best)
+{
+    static const int direction[DIRECTIONS][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
+    bool found = false;
+    for (int i = 0; i < DIRECTIONS; i++) {
+        mixed m = {0};
+        if (!step_along(job, x, y, direction[i][0], direction[i][1], &m))
+            continue;
+        if (!found || m.length < best->length)
+            *best = m;
+        found = true;
+    }
+    return found;
+}
+
+static void repair_row(void *user, size_t index, unsigned worker)
+{
+    (void)worker;
+    repair_job *job = user;
+    const int32_t y = job->sheet->area.y1 + (int32_t)index;
+    for (int32_t i = 0; i < job->w; i++) {
+        const size_t at = index * (size_t)job->w + (size_t)i;
+        mixed m = {0};
+        job->mix[at] = NAN;
+        if (isnan(job->v[at]) || !find_step(job, i, (int32_t)index, &m))
+            continue;
+        const double near_v = job->v[m.near];
+        const double far_v = job->v[m.far];
+        const bool near = m.part >= 0.5 || isnan(far_v);
+        const double to_near = fabs(near_v - job->v[at]);
+        const double to_far = isnan(far_v) ? INFINITY : fabs(far_v - job->v[at]);
+        if ((near ? to_near : to_far) <= job->off)
+            continue;
+        job->sheet->v[at] = (float)(near ? near_v : far_v);
+        job->mix[at] = (float)m.part;
+        const int32_t x = job->sheet->area.x1 + i;
+        job->rows[index] += y >= job->counted.y1 && y < job->counted.y2 && x >= job->counted.x1 &&
+                            x < job->counted.x2;
+    }
+}
+
+wo_status wo_sheet_repair_depth(const wo_context *context, const wo_sheet_source *source,
+                                double px_per_dioptre, wo_rect counted, wo_sheet *sheet, float *mix,
+                                int64_t *repaired, wo_error *error)
+{
+    repair_job job = {.source = source,
+                      .sheet = sheet,
+                      .counted = counted,
+                      .mix = mix,
+                      .step = STEP_PX / px_per_dioptre,
+                      .off = OFF_PX / px_per_dioptre,
+                      .w = wo_rect_width(sheet->area),
+                      .h = wo_rect_height(sheet->area)};
+    const size_t n = (size_t)job.w * (size_t)job.h;
+    float *before = NULL;
+    wo_status status = WO_ERR_NOMEM;
+    if (!(job.rows = wo_new(context, error, (size_t)job.h, sizeof *job.rows)))
+        goto done;
+    if (!(job.depth = wo_new_large(context, error, n, sizeof *job.depth)))
+        goto done;
+    if (!(before = wo_new_large(context, error, n, sizeof *before)))
+        goto done;
+    memcpy(before, sheet->v, n * sizeof *before);
+    job.v = before;
+    wo_run(context, depth_row, &job, (size_t)job.h);
+    wo_run(context, repair_row, &job, (size_t)job.h);
+    for (int32_t y = 0; y < job.h; y++)
+        *repaired += job.rows[y];
+    status = WO_OK;
+done:
+    wo_delete(context, job.rows);
+    wo_delete(context, job.depth);
+    wo_delete(context, before);
+    return status;
+}
