@@ -8,9 +8,14 @@
 
 /* px to the nearest unmixed pixel on either side, at most: a filter 3 px wide mixes three pixels
    of an edge, and from the first of them to the other side it is three. */
-enum { RUN = 3, DIRECTIONS = 4 };
-/* A change of depth below this fraction of the whole step is the slope of a surface. */
-#define FLAT 0.08
+enum { RUN = 4, DIRECTIONS = 4 };
+/* A change below this fraction of the whole step is the slope of a surface, in depth and in
+   vergence: what is little of the one can be much of the other. */
+#define FLAT 0.01
+/* What still changes by more at the end of what is looked at is a slope, no step. */
+#define SLOPE 0.04
+/* A pixel that is one with a block of 2 x 2 to this fraction is a surface, not a mixture. */
+#define SAME 0.01
 /* Two surfaces whose blur differs by less than this many px of radius need no repair, */
 #define STEP_PX 0.75
 /* nor a pixel whose own blur is as near to that of one of them. */
@@ -50,7 +55,7 @@ static void depth_row(void *user, size_t index, unsigned worker)
 typedef struct mixed {
     size_t near, far; /* unmixed pixels */
     double part;      /* of the near one in the depth */
-    double length;    /* px between them */
+    double steepness; /* dioptres for each px between them */
 } mixed;
 
 /* How far depth runs on from (x, y) in the direction (a, b), in the sense of sign; at most RUN. */
@@ -65,21 +70,20 @@ static int run_of(const repair_job *job, int32_t x, int32_t y, int a, int b, int
     return n;
 }
 
-/* Gives up the end of a run that is the slope of a surface; false when it is slope to the end of
-   what was looked at. */
-static bool trim(const float *at, ptrdiff_t next, double flat, int *n)
+/* Do two pixels differ by less than a fraction of the step between two others? */
+static bool flat(const repair_job *job, size_t a, size_t b, const size_t step[2], double fraction)
 {
-    const int reached = *n;
-    while (*n > 0 && fabs((double)at[*n * next] - (double)at[(*n - 1) * next]) <= flat)
-        (*n)--;
-    return *n < RUN || reached < RUN;
+    const double z = fabs((double)job->depth[step[0]] - (double)job->depth[step[1]]);
+    const double v = fabs((double)job->v[step[0]] - (double)job->v[step[1]]);
+    const double dz = fabs((double)job->depth[a] - (double)job->depth[b]);
+    const double dv = fabs((double)job->v[a] - (double)job->v[b]);
+    return dz <= fraction * z && !(dv > fraction * v);
 }
 
 /* Does depth step over the pixel in the direction (a, b), from one surface to another? */
 static bool step_along(const repair_job *job, int32_t x, int32_t y, int a, int b, mixed *out)
 {
     const size_t here = (size_t)y * (size_t)job->w + (size_t)x;
-    const float *at = job->depth + here;
     const ptrdiff_t next = (ptrdiff_t)b * job->w + a;
     int up = run_of(job, x, y, a, b, 1);
     const int sign = up > 0 ? 1 : -1;
@@ -87,25 +91,55 @@ static bool step_along(const repair_job *job, int32_t x, int32_t y, int a, int b
     int down = run_of(job, x, y, -a, -b, -sign);
     if (up == 0 || down == 0)
         return false;
-    const double whole = fabs((double)at[up * next] - (double)at[-down * next]);
-    if (!trim(at, next, FLAT * whole, &up) || !trim(at, -next, FLAT * whole, &down) || up == 0 ||
-        down == 0)
+    /* Give up the ends that are the slope of a surface; what is slope to the end of what was looked
+       at has no end. */
+    size_t end[2] = {here + (size_t)(up * next), here - (size_t)(down * next)};
+    const size_t whole[2] = {end[0], end[1]};
+    const bool slope = (up == RUN && !flat(job, end[0], end[0] - (size_t)next, whole, SLOPE)) ||
+                       (down == RUN && !flat(job, end[1], end[1] + (size_t)next, whole, SLOPE));
+    while (up > 0 && flat(job, end[0], end[0] - (size_t)next, whole, FLAT)) {
+        end[0] -= (size_t)next;
+        up--;
+    }
+    while (down > 0 && flat(job, end[1], end[1] + (size_t)next, whole, FLAT)) {
+        end[1] += (size_t)next;
+        down--;
+    }
+    if (up == 0 || down == 0 || slope)
         return false;
-    const size_t one = here + (size_t)(up * next);
-    const size_t two = here - (size_t)(down * next);
-    const bool one_is_near = isnan(job->v[two]) || job->v[one] > job->v[two];
-    out->near = one_is_near ? one : two;
-    out->far = one_is_near ? two : one;
+    const bool near = isnan(job->v[end[1]]) || job->v[end[0]] > job->v[end[1]];
+    out->near = end[near ? 0 : 1];
+    out->far = end[near ? 1 : 0];
     if (isnan(job->v[out->near]))
         return false;
-    const double near_z = job->depth[out->near];
     const double far_z = job->depth[out->far];
-    out->part = ((double)*at - far_z) / (near_z - far_z);
-    out->length = (up + down) * (a && b ? 1.41421356237309505 : 1);
-    return isnan(job->v[out->far]) || (double)job->v[out->near] - job->v[out->far] > job->step;
+    out->part = ((double)job->depth[here] - far_z) / ((double)job->depth[out->near] - far_z);
+    const bool open = isnan(job->v[out->far]);
+    const double height = open ? HUGE_VAL : (double)job->v[out->near] - job->v[out->far];
+    out->steepness = height / ((up + down) * (a && b ? 1.41421356237309505 : 1));
+    return height > job->step;
 }
 
-/* The shortest step over a pixel. */
+/* Is the pixel one with a block of 2 x 2? Across an edge depth changes from pixel to pixel. */
+static bool is_surface(const repair_job *job, int32_t x, int32_t y, const mixed *m)
+{
+    const size_t at = (size_t)y * (size_t)job->w + (size_t)x;
+    const size_t step[2] = {m->near, m->far};
+    for (int corner = 0; corner < 4; corner++) {
+        const int a = corner & 1 ? 1 : -1;
+        const int b = corner & 2 ? 1 : -1;
+        if (x + a < 0 || x + a >= job->w || y + b < 0 || y + b >= job->h)
+            continue;
+        const ptrdiff_t up = (ptrdiff_t)b * job->w;
+        if (flat(job, at, at + (size_t)a, step, SAME) &&
+            flat(job, at, at + (size_t)up, step, SAME) &&
+            flat(job, at, at + (size_t)(up + a), step, SAME))
+            return true;
+    }
+    return false;
+}
+
+/* The steepest step over a pixel: the others go along the edge. */
 static bool find_step(const repair_job *job, int32_t x, int32_t y, mixed *best)
 {
     static const int direction[DIRECTIONS][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
@@ -114,7 +148,7 @@ static bool find_step(const repair_job *job, int32_t x, int32_t y, mixed *best)
         mixed m = {0};
         if (!step_along(job, x, y, direction[i][0], direction[i][1], &m))
             continue;
-        if (!found || m.length < best->length)
+        if (!found || m.steepness > best->steepness)
             *best = m;
         found = true;
     }
@@ -130,7 +164,8 @@ static void repair_row(void *user, size_t index, unsigned worker)
         const size_t at = index * (size_t)job->w + (size_t)i;
         mixed m = {0};
         job->mix[at] = NAN;
-        if (isnan(job->v[at]) || !find_step(job, i, (int32_t)index, &m))
+        if (isnan(job->v[at]) || !find_step(job, i, (int32_t)index, &m) ||
+            is_surface(job, i, (int32_t)index, &m))
             continue;
         const double near_v = job->v[m.near];
         const double far_v = job->v[m.far];

@@ -117,7 +117,8 @@ static double mixture(const float c[4], const double own[4], const double other[
     if (!(length > 1e-6))
         return isnan(expected) ? 0 : expected;
     const double trust = isnan(expected) ? 0 : DEPTH_TRUST;
-    const double f = fmin(fmax((along + (trust > 0 ? trust * expected : 0)) / (length + trust), 0), 1);
+    const double f =
+        fmin(fmax((along + (trust > 0 ? trust * expected : 0)) / (length + trust), 0), 1);
     for (int k = 0; k < 4; k++) {
         const double r = c[k] - own[k] - f * (other[k] - own[k]);
         off += r * r;
