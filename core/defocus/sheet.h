@@ -61,20 +61,20 @@ int wo_read_colour(const wo_image *image, wo_alpha alpha, int32_t x, int32_t y, 
 /* px that wo_sheet_load looks beyond a pixel. */
 #define WO_SHEET_LOAD_MARGIN 2
 
-/* Repairs antialiased depth: a pixel whose depth lies on a step between two surfaces, where it mixes
-   both and belongs to neither, gets the vergence of the one that has the larger part in it. The
-   surfaces are the nearest pixels on either side, at most WO_SHEET_REPAIR_MARGIN px away, from
-   where depth goes on flat or turns round: slopes, silhouettes that bend away and wires that are
-   too thin for a flat part stay as they are. Depth mixes in the unit it is given in, whatever that
-   is, also with a background at 1e10. Only a visible difference of blur counts (px_per_dioptre).
-   source->depth must be connected. mix, as large as the sheet, becomes the part of the nearer
-   surface in each repaired pixel's depth and NaN elsewhere; *repaired is added to, for pixels of
-   counted. */
+/* Repairs antialiased depth: a pixel whose depth lies on a step between two surfaces, where it
+   mixes both and belongs to neither, gets the vergence of the one that has the larger part in it.
+   The surfaces are the nearest pixels on either side, at most 4 px away, from where depth goes on
+   flat or turns round: slopes and blocks of 2 x 2 px of one depth stay as they are. Depth mixes in
+   the unit it is given in, whatever that is, also with a background at 1e10. Only a visible
+   difference of blur counts (px_per_dioptre). source->depth must be connected. mix, as large as the
+   sheet, becomes the part of the nearer surface in each repaired pixel's depth and NaN elsewhere;
+   *repaired is added to, for pixels of counted. */
 WO_NODISCARD wo_status wo_sheet_repair_depth(const wo_context *context,
                                              const wo_sheet_source *source, double px_per_dioptre,
                                              wo_rect counted, wo_sheet *sheet, float *mix,
                                              int64_t *repaired, wo_error *error);
-#define WO_SHEET_REPAIR_MARGIN 4
+/* px that the repair looks beyond a pixel. */
+#define WO_SHEET_REPAIR_MARGIN 22
 
 /* Splits pixels that mix two surfaces (antialiased colour over unfiltered or repaired depth) into
    the part that belongs to their own depth, which stays, and the part of the neighbouring surface,

@@ -8,7 +8,7 @@
 
 /* px to the nearest unmixed pixel on either side, at most: a filter 3 px wide mixes three pixels
    of an edge, and from the first of them to the other side it is three. */
-enum { RUN = 4, DIRECTIONS = 4 };
+enum { RUN = 4, DIRECTIONS = 4, CHAIN = 4 };
 /* A change below this fraction of the whole step is the slope of a surface, in depth and in
    vergence: what is little of the one can be much of the other. */
 #define FLAT 0.01
@@ -21,12 +21,17 @@ enum { RUN = 4, DIRECTIONS = 4 };
 /* nor a pixel whose own blur is as near to that of one of them. */
 #define OFF_PX 0.1
 
+typedef struct way {
+    int8_t x, y; /* px */
+} way;
+
 typedef struct repair_job {
     const wo_sheet_source *source;
     wo_sheet *sheet;
     wo_rect counted;
     const float *v; /* [h][w] before any repair */
     float *depth;   /* [h][w] samples as they were filtered; NaN = none */
+    way *to;        /* [h][w] to the pixel whose surface a pixel belongs to: mostly itself */
     float *mix;     /* [h][w] out */
     int64_t *rows;
     double step, off; /* dioptres */
@@ -54,6 +59,7 @@ static void depth_row(void *user, size_t index, unsigned worker)
 /* A step of depth through a pixel along a line: the two surfaces it mixes. */
 typedef struct mixed {
     size_t near, far; /* unmixed pixels */
+    way to_near, to_far;
     double part;      /* of the near one in the depth */
     double steepness; /* dioptres for each px between them */
 } mixed;
@@ -110,6 +116,10 @@ static bool step_along(const repair_job *job, int32_t x, int32_t y, int a, int b
     const bool near = isnan(job->v[end[1]]) || job->v[end[0]] > job->v[end[1]];
     out->near = end[near ? 0 : 1];
     out->far = end[near ? 1 : 0];
+    const way first = {(int8_t)(up * a), (int8_t)(up * b)};
+    const way second = {(int8_t)(-down * a), (int8_t)(-down * b)};
+    out->to_near = near ? first : second;
+    out->to_far = near ? second : first;
     if (isnan(job->v[out->near]))
         return false;
     const double far_z = job->depth[out->far];
@@ -155,6 +165,31 @@ static bool find_step(const repair_job *job, int32_t x, int32_t y, mixed *best)
     return found;
 }
 
+static void find_row(void *user, size_t index, unsigned worker)
+{
+    (void)worker;
+    repair_job *job = user;
+    for (int32_t i = 0; i < job->w; i++) {
+        const size_t at = index * (size_t)job->w + (size_t)i;
+        mixed m = {0};
+        job->mix[at] = NAN;
+        job->to[at] = (way){0, 0};
+        if (isnan(job->v[at]) || !find_step(job, i, (int32_t)index, &m) ||
+            is_surface(job, i, (int32_t)index, &m))
+            continue;
+        job->to[at] = m.part >= 0.5 || isnan(job->v[m.far]) ? m.to_near : m.to_far;
+        job->mix[at] = (float)m.part;
+    }
+}
+
+/* Where edges cross, what looked unmixed may be a mixture that belongs to a third pixel. */
+static size_t surface_of(const repair_job *job, size_t at)
+{
+    for (int i = 0; i < CHAIN; i++)
+        at += (size_t)((ptrdiff_t)job->to[at].y * job->w + job->to[at].x);
+    return at;
+}
+
 static void repair_row(void *user, size_t index, unsigned worker)
 {
     (void)worker;
@@ -162,20 +197,12 @@ static void repair_row(void *user, size_t index, unsigned worker)
     const int32_t y = job->sheet->area.y1 + (int32_t)index;
     for (int32_t i = 0; i < job->w; i++) {
         const size_t at = index * (size_t)job->w + (size_t)i;
-        mixed m = {0};
-        job->mix[at] = NAN;
-        if (isnan(job->v[at]) || !find_step(job, i, (int32_t)index, &m) ||
-            is_surface(job, i, (int32_t)index, &m))
+        const float v = job->v[surface_of(job, at)];
+        if (!(fabs((double)v - (double)job->v[at]) > job->off)) {
+            job->mix[at] = NAN;
             continue;
-        const double near_v = job->v[m.near];
-        const double far_v = job->v[m.far];
-        const bool near = m.part >= 0.5 || isnan(far_v);
-        const double to_near = fabs(near_v - job->v[at]);
-        const double to_far = isnan(far_v) ? INFINITY : fabs(far_v - job->v[at]);
-        if ((near ? to_near : to_far) <= job->off)
-            continue;
-        job->sheet->v[at] = (float)(near ? near_v : far_v);
-        job->mix[at] = (float)m.part;
+        }
+        job->sheet->v[at] = v;
         const int32_t x = job->sheet->area.x1 + i;
         job->rows[index] += y >= job->counted.y1 && y < job->counted.y2 && x >= job->counted.x1 &&
                             x < job->counted.x2;
@@ -201,11 +228,14 @@ wo_status wo_sheet_repair_depth(const wo_context *context, const wo_sheet_source
         goto done;
     if (!(job.depth = wo_new_large(context, error, n, sizeof *job.depth)))
         goto done;
+    if (!(job.to = wo_new_large(context, error, n, sizeof *job.to)))
+        goto done;
     if (!(before = wo_new_large(context, error, n, sizeof *before)))
         goto done;
     memcpy(before, sheet->v, n * sizeof *before);
     job.v = before;
     wo_run(context, depth_row, &job, (size_t)job.h);
+    wo_run(context, find_row, &job, (size_t)job.h);
     wo_run(context, repair_row, &job, (size_t)job.h);
     for (int32_t y = 0; y < job.h; y++)
         *repaired += job.rows[y];
@@ -213,6 +243,7 @@ wo_status wo_sheet_repair_depth(const wo_context *context, const wo_sheet_source
 done:
     wo_delete(context, job.rows);
     wo_delete(context, job.depth);
+    wo_delete(context, job.to);
     wo_delete(context, before);
     return status;
 }

@@ -11,8 +11,8 @@
 #define MIX_MIN 0.004
 /* How far from the line between the two pure colours a mixture may lie, relative to its length. */
 #define RESIDUAL_MAX 0.5
-/* Squared distance of two colours above which colour says more about a mixture than depth. */
-#define DEPTH_TRUST 1e-4
+/* Squared distance of two colours from which on colour says more about a mixture than depth. */
+#define DEPTH_TRUST 0.01
 
 typedef struct split_job {
     wo_sheet *sheet;
