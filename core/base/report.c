@@ -78,8 +78,11 @@ void wo_report_add(wo_report *total, const wo_report *part)
             pixels;
     for (int i = 0; i < WO_STAGE_COUNT; i++)
         total->seconds[i] += part->seconds[i];
-    for (int i = 0; i < WO_TILE_CLASS_COUNT; i++)
+    for (int i = 0; i < WO_TILE_CLASS_COUNT; i++) {
         total->tiles[i] += part->tiles[i];
+        total->square_error[i] += part->square_error[i];
+        total->error_pixels[i] += part->error_pixels[i];
+    }
     total->pixels += part->pixels;
     total->rays += part->rays;
     total->steps += part->steps;
@@ -170,6 +173,24 @@ static void put_count(writer *out, const char *key, int64_t value)
     put(out, "\"%s\": %" PRId64 ", ", key, value);
 }
 
+/* Root mean squares; null where nothing was estimated. */
+static void put_errors(writer *out, const wo_report *report)
+{
+    double square = 0;
+    int64_t pixels = 0;
+    put(out, "\"estimated_error\": {");
+    for (int i = 0; i < WO_TILE_CLASS_COUNT; i++) {
+        put(out, "\"%s\": ", wo_tile_class_text((wo_tile_class)i));
+        put_number(out, sqrt(report->square_error[i] / (double)report->error_pixels[i]));
+        put(out, ", ");
+        square += report->square_error[i];
+        pixels += report->error_pixels[i];
+    }
+    put(out, "\"all\": ");
+    put_number(out, sqrt(square / (double)pixels));
+    put(out, "}, ");
+}
+
 int wo_report_json(const wo_report *report, char *buffer, size_t size)
 {
     writer out = {buffer, size, 0};
@@ -192,7 +213,9 @@ int wo_report_json(const wo_report *report, char *buffer, size_t size)
     for (int i = 0; i < WO_TILE_CLASS_COUNT; i++)
         put(&out, "%s\"%s\": %" PRId64, i ? ", " : "", wo_tile_class_text((wo_tile_class)i),
             report->tiles[i]);
-    put(&out, "}, \"guessed\": ");
+    put(&out, "}, ");
+    put_errors(&out, report);
+    put(&out, "\"guessed\": ");
     put_number(&out, report->guessed);
     put(&out, ", ");
     put_count(&out, "guessed_pixels", report->guessed_pixels);

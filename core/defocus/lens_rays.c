@@ -81,12 +81,10 @@ static void classify_row(void *user, size_t index, unsigned worker)
 }
 
 wo_status wo_lens_rays_create(const wo_context *context, const wo_stack *stack, const wo_lens *lens,
-                              const wo_highlights *highlights, wo_rect window, double max_reach,
-                              wo_lens_rays *rays, wo_error *error)
+                              wo_rect window, double max_reach, wo_lens_rays *rays, wo_error *error)
 {
     *rays = (wo_lens_rays){.stack = stack,
                            .lens = lens,
-                           .highlights = highlights,
                            .kernels = wo_march_choose(wo_cpu_detect(context->cpu)),
                            .tiles = wo_tiles_of(window)};
     const size_t rows = (size_t)wo_rect_height(rays->tiles);
@@ -238,15 +236,6 @@ bool wo_lens_rays_tile(const wo_lens_rays *rays, const wo_context *context, int3
             for (int i = 0; i < WO_LANES; i++)
                 pixels->guessed[row][run_index + WO_PHASES * i] /= (float)count;
         }
-    }
-    if (rays->highlights && rays->highlights->count > 0) {
-        float light[WO_TILE_HEIGHT][WO_TILE_WIDTH][3] = {0};
-        report->rays +=
-            wo_highlights_add(rays->highlights, stack, rays->lens, rect, tile->v_near, light);
-        for (int32_t y = 0; y < WO_TILE_HEIGHT; y++)
-            for (int32_t x = 0; x < WO_TILE_WIDTH; x++)
-                for (int k = 0; k < 3; k++)
-                    pixels->c[y][x][k] += light[y][x][k];
     }
     return true;
 }

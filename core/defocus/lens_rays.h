@@ -3,7 +3,6 @@
 #ifndef WO_CORE_DEFOCUS_LENS_RAYS_H
 #define WO_CORE_DEFOCUS_LENS_RAYS_H
 
-#include "defocus/highlights.h"
 #include "defocus/march.h"
 #include "wideopen/report.h"
 
@@ -18,7 +17,6 @@ typedef struct wo_ray_tile {
 typedef struct wo_lens_rays {
     const wo_stack *stack;
     const wo_lens *lens;
-    const wo_highlights *highlights;
     const wo_march_kernels *kernels;
     wo_rect tiles; /* in units of tiles, absolute */
     wo_ray_tile *tile;
@@ -37,13 +35,12 @@ wo_rect wo_tiles_of(wo_rect r);
 /* Classes for the tiles that touch window. max_reach: no ray goes farther, px; the stack must hold
    those tiles grown by max_reach + WO_RAYS_MARGIN. */
 WO_NODISCARD wo_status wo_lens_rays_create(const wo_context *context, const wo_stack *stack,
-                                           const wo_lens *lens, const wo_highlights *highlights,
-                                           wo_rect window, double max_reach, wo_lens_rays *rays,
-                                           wo_error *error);
+                                           const wo_lens *lens, wo_rect window, double max_reach,
+                                           wo_lens_rays *rays, wo_error *error);
 void wo_lens_rays_destroy(const wo_context *context, wo_lens_rays *rays);
 
-/* One tile, whole: premultiplied colour, and the fraction of guessed light of each pixel. The
-   report's rays, steps and tiles are added to. Any thread. */
+/* One tile, whole: premultiplied colour, and the fraction of guessed light of each pixel, without
+   the light of highlights. The report's rays, steps and tiles are added to. Any thread. */
 typedef struct wo_tile_pixels {
     float c[WO_TILE_HEIGHT][WO_TILE_WIDTH][4];
     float guessed[WO_TILE_HEIGHT][WO_TILE_WIDTH];

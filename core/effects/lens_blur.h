@@ -11,7 +11,10 @@ typedef enum wo_lens_blur_output {
     WO_OUTPUT_IMAGE,
     WO_OUTPUT_COC,
     WO_OUTPUT_DEPTH,
-    WO_OUTPUT_RAYS
+    WO_OUTPUT_RAYS,
+    WO_OUTPUT_ERROR,
+    WO_OUTPUT_GUESSED,
+    WO_OUTPUT_COUNT
 } wo_lens_blur_output;
 
 /* What the user wants; the rows of the table in lens_blur_params.c describe each field. */
@@ -53,13 +56,19 @@ typedef struct wo_lens_blur_params {
     double lens_thickness;
     int32_t best_focus;
     int32_t wavelengths;
+    int32_t method;
+    int32_t sampling;
     int32_t samples;
+    double target_error;
+    int32_t max_rays;
     int32_t seed;
     double max_radius;
     int32_t output;
 } wo_lens_blur_params;
 
-enum { WO_LENS_BLUR_PARAMS = 44, WO_LENS_BLUR_GROUPS = 6 };
+enum { WO_LENS_BLUR_PARAMS = 48, WO_LENS_BLUR_GROUPS = 6 };
+typedef enum wo_sampling { WO_SAMPLING_FIXED, WO_SAMPLING_ADAPTIVE, WO_SAMPLING_COUNT } wo_sampling;
+
 extern const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS];
 extern const char *const wo_lens_blur_lens_labels[];
 extern const wo_param_group wo_lens_blur_groups[WO_LENS_BLUR_GROUPS];

@@ -2,6 +2,7 @@
 /* Copyright the WideOpen authors */
 #include "effects/lens_blur.h"
 
+#include "defocus/renderer.h"
 #include "optics/lens_choice.h"
 #include "spectrum/bands.h"
 
@@ -22,8 +23,14 @@ static const char *const channel_labels[] = {"Red or single channel", "Green", "
                                              NULL};
 static const char *const forms[] = {"iris", "star", "heart", NULL};
 static const char *const form_labels[] = {"Iris", "Star", "Heart", NULL};
-static const char *const outputs[] = {"image", "coc", "depth", "rays", NULL};
-static const char *const output_labels[] = {"Image", "Circle of confusion", "Depth", "Rays", NULL};
+static const char *const outputs[] = {"image", "coc", "depth", "rays", "error", "guessed", NULL};
+static const char *const output_labels[] = {
+    "Image", "Circle of confusion", "Depth", "Rays", "Error", "Guessed", NULL};
+
+static const char *const methods[] = {"rays", "reference", NULL};
+static const char *const method_labels[] = {"Rays", "Reference", NULL};
+static const char *const samplings[] = {"fixed", "adaptive", NULL};
+static const char *const sampling_labels[] = {"Fixed", "Adaptive", NULL};
 
 #include "effects/lens_choices.inc.h"
 
@@ -205,6 +212,62 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .ui_min = 0,
      .ui_max = 1},
 #include "effects/lens_params.inc.h"
+    {.key = "method",
+     .label = "Method",
+     .unit = "",
+     .group = "quality",
+     .help = "How the blur is made. Rays: lens rays through the layers, the same number for every "
+             "pixel. Reference: the same by brute force, some 25 times slower, for checking.",
+     .type = WO_PARAM_CHOICE,
+     .offset = FIELD(method),
+     .initial = {WO_METHOD_RAYS},
+     .min = 0,
+     .max = WO_METHOD_COUNT - 1,
+     .ui_min = 0,
+     .ui_max = WO_METHOD_COUNT - 1,
+     .choices = methods,
+     .choice_labels = method_labels},
+    {.key = "sampling",
+     .label = "Sampling",
+     .unit = "",
+     .group = "quality",
+     .help =
+         "Fixed: as many lens rays as Samples says. Adaptive: as many as the target error needs, "
+         "no more than Most rays.",
+     .type = WO_PARAM_CHOICE,
+     .offset = FIELD(sampling),
+     .initial = {WO_SAMPLING_FIXED},
+     .min = 0,
+     .max = WO_SAMPLING_COUNT - 1,
+     .ui_min = 0,
+     .ui_max = WO_SAMPLING_COUNT - 1,
+     .choices = samplings,
+     .choice_labels = sampling_labels},
+    {.key = "targetError",
+     .label = "Target error",
+     .unit = "",
+     .group = "quality",
+     .help = "Adaptive sampling goes on until the estimated error of the displayed picture (black "
+             "0, white 1) is below this. 1/255 = 0.004 is one step of an 8-bit display.",
+     .type = WO_PARAM_DOUBLE,
+     .offset = FIELD(target_error),
+     .initial = {0.004},
+     .min = 0,
+     .max = 1,
+     .ui_min = 0.001,
+     .ui_max = 0.02},
+    {.key = "maxRays",
+     .label = "Most rays",
+     .unit = "",
+     .group = "quality",
+     .help = "Adaptive sampling gives no pixel more lens rays than this.",
+     .type = WO_PARAM_INT,
+     .offset = FIELD(max_rays),
+     .initial = {1024},
+     .min = 1,
+     .max = 16384,
+     .ui_min = 16,
+     .ui_max = 4096},
     {.key = "samples",
      .label = "Samples",
      .unit = "",
@@ -248,16 +311,17 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .label = "Output",
      .unit = "",
      .group = "view",
-     .help = "The image, or a view of the plan: the radius of the circle of confusion in px "
-             "(positive in front of the focus, negative behind), the depth in metres, or the lens "
-             "rays of each pixel.",
+     .help =
+         "The image, or a view of the plan: the radius of the circle of confusion in px "
+         "(positive in front of the focus, negative behind), the depth in metres, the lens rays "
+         "of each pixel, its estimated error, or how much of its light was guessed.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(output),
      .initial = {WO_OUTPUT_IMAGE},
      .min = 0,
-     .max = 3,
+     .max = WO_OUTPUT_COUNT - 1,
      .ui_min = 0,
-     .ui_max = 3,
+     .ui_max = WO_OUTPUT_COUNT - 1,
      .choices = outputs,
      .choice_labels = output_labels},
 };

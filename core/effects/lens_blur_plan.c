@@ -235,6 +235,11 @@ static wo_status check_args(const wo_plan_args *args, wo_error *error)
     return WO_OK;
 }
 
+static int most_rays(const wo_quality *quality)
+{
+    return quality->adaptive ? quality->max_rays : quality->samples;
+}
+
 /* Any lens but the thin one, through its table. */
 static wo_status make_table_lens(wo_plan *plan, wo_error *error)
 {
@@ -242,7 +247,8 @@ static wo_status make_table_lens(wo_plan *plan, wo_error *error)
     const wo_lens_blur_setup *s = &plan->setup;
     const wo_geometry *g = &plan->geometry;
     const wo_rect far = wo_rect_union(g->extent, g->format);
-    const int wavelengths = p->wavelengths < p->samples ? p->wavelengths : p->samples;
+    const int count = most_rays(&plan->quality);
+    const int wavelengths = p->wavelengths < count ? p->wavelengths : count;
     wo_table_pencil_options options = {
         .aperture = &s->aperture,
         .focal_px = s->lens.focal_px,
@@ -254,7 +260,7 @@ static wo_status make_table_lens(wo_plan *plan, wo_error *error)
         .half_diagonal =
             0.5 * hypot(wo_rect_width(g->format), wo_rect_height(g->format) / g->pixel_stretch),
         .doors = {p->door_left, p->door_right, p->door_bottom, p->door_top},
-        .count = p->samples,
+        .count = count,
         .wavelengths = wavelengths,
         .seed = (uint32_t)p->seed,
     };
@@ -316,7 +322,7 @@ static wo_status make_lens(wo_plan *plan, wo_error *error)
     wo_thin_lens lens = plan->setup.lens;
     lens.vf = 0;
     WO_TRY(wo_thin_pencils_create(&plan->context, &lens, &plan->setup.aperture,
-                                  plan->geometry.pixel_stretch, plan->params.samples,
+                                  plan->geometry.pixel_stretch, most_rays(&plan->quality),
                                   (uint32_t)plan->params.seed, &plan->pencils, error));
     plan->lens = wo_thin_pencils_lens(plan->pencils);
     return WO_OK;
@@ -335,6 +341,11 @@ wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params
     plan->geometry = args->geometry;
     for (size_t i = 0; i < WO_LENS_BLUR_CLIPS; i++)
         plan->geometry.connected[i] = args->inputs[i].data != NULL;
+    const bool adaptive = plan->params.sampling == WO_SAMPLING_ADAPTIVE;
+    plan->quality = (wo_quality){.samples = plan->params.samples,
+                                 .adaptive = adaptive,
+                                 .target_error = plan->params.target_error,
+                                 .max_rays = plan->params.max_rays};
     plan->window = wo_rect_intersect(args->window, args->geometry.extent);
     plan->mask = args->inputs[WO_CLIP_MASK];
     plan->source = args->inputs[WO_CLIP_SOURCE];
@@ -347,9 +358,9 @@ wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params
     if ((status = build_scene(plan, args, error)) != WO_OK)
         goto done;
     const double start = wo_seconds();
-    status = wo_lens_rays_create(
-        &plan->context, &plan->stack, &plan->lens, &plan->highlights, plan->window,
-        plan->setup.reach * fmax(1, plan->geometry.pixel_stretch), &plan->rays, error);
+    status = wo_lens_rays_create(&plan->context, &plan->stack, &plan->lens, plan->window,
+                                 plan->setup.reach * fmax(1, plan->geometry.pixel_stretch),
+                                 &plan->rays, error);
     plan->report.seconds[WO_STAGE_PLAN] = wo_seconds() - start;
 done:
     if (status != WO_OK)
@@ -432,8 +443,13 @@ int wo_lens_blur_plan_print(const wo_plan *plan, char *buffer, size_t size)
         "surfaces\n",
         s->layers, s->has_depth ? "with depth" : "no depth: all at infinity", plan->stack.sheets);
     add(&p, "highlights  %zu connected directly\n", plan->highlights.count);
-    add(&p, "samples     %d lens rays for each pixel, %u different pencils\n", plan->params.samples,
-        plan->lens.sets);
+    if (plan->quality.adaptive)
+        add(&p, "samples     up to %d lens rays for each pixel, to an error of %g; ",
+            plan->quality.max_rays, plan->quality.target_error);
+    else
+        add(&p, "samples     %d lens rays for each pixel; ", plan->quality.samples);
+    add(&p, "%u different pencils; method %s\n", plan->lens.sets,
+        wo_renderer_of((wo_method)plan->params.method)->key);
     for (int i = 0; i < WO_TILE_CLASS_COUNT; i++)
         add(&p, "tiles       %-7s %lld\n", wo_tile_class_text((wo_tile_class)i),
             (long long)tiles[i]);

@@ -3,7 +3,7 @@
 #ifndef WO_CORE_EFFECTS_LENS_BLUR_PLAN_H
 #define WO_CORE_EFFECTS_LENS_BLUR_PLAN_H
 
-#include "defocus/lens_rays.h"
+#include "defocus/renderer.h"
 #include "effects/lens_blur.h"
 #include "optics/pencil_table.h"
 
@@ -24,6 +24,7 @@ struct wo_plan {
     wo_stack stack;
     wo_highlights highlights;
     wo_lens_rays rays;
+    wo_quality quality;
     wo_report report; /* of the planning; counted with the first window that is rendered */
 };
 

@@ -1,28 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
-#include "effects/lens_blur_plan.h"
+#include "effects/lens_blur_views.h"
 
 #include <math.h>
-#include <stdatomic.h>
 #include <string.h>
 
 /* A guess counts as visible above this fraction of a pixel's light. */
 #define GUESS_VISIBLE (1.0f / 255)
-/* Fractions are summed as whole numbers, so that the order of tiles does not matter. */
-#define GUESS_UNIT 1e6
-
-typedef struct render_job {
-    const wo_plan *plan;
-    wo_rect window;
-    wo_rect tiles;
-    const wo_image *output;
-    atomic_bool stop;
-    atomic_llong done;
-    atomic_llong rays, steps;
-    atomic_llong guessed, guessed_pixels;
-    atomic_llong unmasked; /* tiles whose mask is zero */
-    atomic_llong tile[WO_TILE_CLASS_COUNT];
-} render_job;
 
 static float mask_at(const wo_plan *plan, int32_t x, int32_t y)
 {
@@ -33,112 +17,98 @@ static float mask_at(const wo_plan *plan, int32_t x, int32_t y)
     return value >= 0 ? fminf(value, 1) : 0;
 }
 
-static bool tile_masked_out(const render_job *job, wo_rect r)
+static bool masked_out(const wo_plan *plan, wo_rect r)
 {
     for (int32_t y = r.y1; y < r.y2; y++)
         for (int32_t x = r.x1; x < r.x2; x++)
-            if (mask_at(job->plan, x, y) > 0)
+            if (mask_at(plan, x, y) > 0)
                 return false;
     return true;
 }
 
-static void write_image(const render_job *job, wo_rect tile, wo_rect r,
-                        const wo_tile_pixels *pixels)
-{
-    const wo_plan *plan = job->plan;
-    for (int32_t y = r.y1; y < r.y2; y++) {
-        float *to = wo_image_at(job->output, r.x1, y);
-        for (int32_t x = r.x1; x < r.x2; x++, to += 4) {
-            const float *c = pixels->c[y - tile.y1][x - tile.x1];
-            const float mix = plan->setup.mask_used ? mask_at(plan, x, y) : 1;
-            float source[4] = {0};
-            if (mix < 1)
-                wo_read_colour(&plan->source, plan->source_alpha, x, y, source);
-            for (int k = 0; k < 4; k++)
-                to[k] = mix < 1 ? source[k] + mix * (c[k] - source[k]) : c[k];
-        }
-    }
-}
+/* A render on its way: the frame and the memory behind it. */
+typedef struct render_job {
+    const wo_plan *plan;
+    const wo_view *view;
+    const wo_image *output;
+    wo_frame frame;
+    uint8_t *skip;
+    int64_t skipped;
+} render_job;
 
-static float nearest_surface(const wo_stack *stack, int32_t x, int32_t y)
-{
-    const ptrdiff_t at = wo_stack_at(stack, x, y);
-    float v = NAN;
-    for (int s = 0; s < stack->sheets; s++)
-        if (!stack->guessed[s] && stack->v[s][at] == stack->v[s][at] && !(stack->v[s][at] <= v))
-            v = stack->v[s][at];
-    return v;
-}
-
-/* The views other than the image: one number in r, g, b. */
-static void write_view(const render_job *job, const wo_ray_tile *tile, wo_rect r)
-{
-    const wo_plan *plan = job->plan;
-    for (int32_t y = r.y1; y < r.y2; y++) {
-        float *to = wo_image_at(job->output, r.x1, y);
-        for (int32_t x = r.x1; x < r.x2; x++, to += 4) {
-            const float v = nearest_surface(&plan->stack, x, y);
-            const double absolute = (double)v + plan->setup.lens.vf;
-            double value = 0;
-            if (plan->params.output == WO_OUTPUT_COC)
-                value = isnan(v) ? 0 : plan->setup.lens.k * (double)v;
-            else if (plan->params.output == WO_OUTPUT_DEPTH)
-                value = absolute > 1e-9 ? 1 / absolute : 0;
-            else if (tile->class == WO_TILE_SHARP)
-                value = 1;
-            else if (tile->class != WO_TILE_EMPTY)
-                value = plan->params.samples;
-            to[0] = to[1] = to[2] = (float)value;
-            to[3] = 1;
-        }
-    }
-}
-
-static void render_tile(void *user, size_t index, unsigned worker)
+static void skip_row(void *user, size_t index, unsigned worker)
 {
     (void)worker;
     render_job *job = user;
-    const wo_plan *plan = job->plan;
-    if (atomic_load_explicit(&job->stop, memory_order_relaxed))
-        return;
-    const int32_t columns = wo_rect_width(job->tiles);
-    const int32_t tx = job->tiles.x1 + (int32_t)(index % (size_t)columns);
-    const int32_t ty = job->tiles.y1 + (int32_t)(index / (size_t)columns);
-    const wo_rect tile = {tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT, (tx + 1) * WO_TILE_WIDTH,
-                          (ty + 1) * WO_TILE_HEIGHT};
-    const wo_rect r = wo_rect_intersect(tile, job->window);
-    wo_tile_pixels pixels;
-    wo_report part = {0};
-    if (plan->params.output != WO_OUTPUT_IMAGE) {
-        write_view(job, wo_lens_rays_at(&plan->rays, tx, ty), r);
-    } else if (plan->setup.mask_used && tile_masked_out(job, r)) {
-        memset(&pixels, 0, sizeof pixels);
-        write_image(job, tile, r, &pixels);
-        atomic_fetch_add(&job->unmasked, 1);
-    } else {
-        if (!wo_lens_rays_tile(&plan->rays, &plan->context, tx, ty, &pixels, &part)) {
-            atomic_store(&job->stop, true);
-            return;
-        }
-        write_image(job, tile, r, &pixels);
-        double guessed = 0;
-        for (int32_t y = r.y1; y < r.y2; y++)
-            for (int32_t x = r.x1; x < r.x2; x++) {
-                const float g = pixels.guessed[y - tile.y1][x - tile.x1];
-                guessed += (double)g;
-                part.guessed_pixels += g > GUESS_VISIBLE;
-            }
-        atomic_fetch_add(&job->guessed, (long long)(guessed * GUESS_UNIT));
-        atomic_fetch_add(&job->guessed_pixels, (long long)part.guessed_pixels);
-        atomic_fetch_add(&job->rays, (long long)part.rays);
-        atomic_fetch_add(&job->steps, (long long)part.steps);
-        for (int i = 0; i < WO_TILE_CLASS_COUNT; i++)
-            atomic_fetch_add(&job->tile[i], (long long)part.tiles[i]);
+    const wo_rect tiles = job->frame.tiles;
+    const int32_t low = (tiles.y1 + (int32_t)index) * WO_TILE_HEIGHT;
+    for (int32_t tx = tiles.x1; tx < tiles.x2; tx++) {
+        const wo_rect tile = {tx * WO_TILE_WIDTH, low, (tx + 1) * WO_TILE_WIDTH,
+                              low + WO_TILE_HEIGHT};
+        job->skip[index * (size_t)wo_rect_width(tiles) + (size_t)(tx - tiles.x1)] =
+            masked_out(job->plan, wo_rect_intersect(tile, job->frame.window));
     }
-    const long long total = (long long)columns * wo_rect_height(job->tiles);
-    const long long done = atomic_fetch_add(&job->done, 1) + 1;
-    if (plan->context.progress && (done * 100 / total != (done - 1) * 100 / total))
-        plan->context.progress(plan->context.progress_user, (double)done / (double)total);
+}
+
+static wo_status make_frame(render_job *job, const wo_renderer *renderer, wo_error *error)
+{
+    const wo_context *context = &job->plan->context;
+    wo_frame *frame = &job->frame;
+    const int output = job->plan->params.output;
+    const size_t w = (size_t)wo_rect_width(frame->window);
+    const size_t h = (size_t)wo_rect_height(frame->window);
+    if (!(frame->c = wo_new_large(context, error, w * h, sizeof *frame->c)) ||
+        !(frame->guessed = wo_new_large(context, error, w * h, sizeof *frame->guessed)))
+        return WO_ERR_NOMEM;
+    if (output == WO_OUTPUT_RAYS &&
+        !(frame->rays = wo_new_large(context, error, w * h, sizeof *frame->rays)))
+        return WO_ERR_NOMEM;
+    if ((renderer->estimates || output == WO_OUTPUT_ERROR) &&
+        !(frame->error = wo_new_large(context, error, w * h, sizeof *frame->error)))
+        return WO_ERR_NOMEM;
+    if (job->plan->setup.mask_used) {
+        const size_t tiles =
+            (size_t)wo_rect_width(frame->tiles) * (size_t)wo_rect_height(frame->tiles);
+        if (!(job->skip = wo_new(context, error, tiles, sizeof *job->skip)))
+            return WO_ERR_NOMEM;
+        wo_run(context, skip_row, job, (size_t)wo_rect_height(frame->tiles));
+        for (size_t i = 0; i < tiles; i++)
+            job->skipped += job->skip[i];
+        frame->skip = job->skip;
+    }
+    return WO_OK;
+}
+
+static void destroy_frame(render_job *job)
+{
+    const wo_context *context = &job->plan->context;
+    wo_delete(context, job->frame.c);
+    wo_delete(context, job->frame.guessed);
+    wo_delete(context, job->frame.rays);
+    wo_delete(context, job->frame.error);
+    wo_delete(context, job->skip);
+}
+
+static void write_row(void *user, size_t index, unsigned worker)
+{
+    (void)worker;
+    const render_job *job = user;
+    const wo_plan *plan = job->plan;
+    const wo_rect r = job->frame.window;
+    const int32_t y = r.y1 + (int32_t)index;
+    float *to = wo_image_at(job->output, r.x1, y);
+    for (int32_t x = r.x1; x < r.x2; x++, to += 4) {
+        float c[4];
+        job->view->pixel(plan, job->frame.c ? &job->frame : NULL, x, y, c);
+        const float mix = plan->params.output == WO_OUTPUT_IMAGE && plan->setup.mask_used
+                              ? mask_at(plan, x, y)
+                              : 1;
+        float source[4] = {0};
+        if (mix < 1)
+            wo_read_colour(&plan->source, plan->source_alpha, x, y, source);
+        for (int k = 0; k < 4; k++)
+            to[k] = mix < 1 ? source[k] + mix * (c[k] - source[k]) : c[k];
+    }
 }
 
 static void clear_outside(const wo_image *output, wo_rect window, wo_rect inside)
@@ -151,41 +121,79 @@ static void clear_outside(const wo_image *output, wo_rect window, wo_rect inside
     }
 }
 
-static void fill_report(const render_job *job, double seconds, wo_report *report)
+/* What the pixels tell: guessed light, estimated error. In the order of pixels, so that threads
+   change nothing. */
+static void count_pixels(const render_job *job, wo_report *report)
+{
+    const wo_frame *frame = &job->frame;
+    const wo_rect r = frame->window;
+    double guessed = 0;
+    for (int32_t y = r.y1; y < r.y2; y++) {
+        for (int32_t x = r.x1; x < r.x2; x++) {
+            const size_t at = wo_frame_at(frame, x, y);
+            guessed += (double)frame->guessed[at];
+            report->guessed_pixels += frame->guessed[at] > GUESS_VISIBLE;
+        }
+        for (int32_t x = r.x1; frame->error && x < r.x2; x++) {
+            const float e = frame->error[wo_frame_at(frame, x, y)];
+            const wo_rect tile = wo_tiles_of((wo_rect){x, y, x + 1, y + 1});
+            const wo_tile_class class = wo_lens_rays_at(&job->plan->rays, tile.x1, tile.y1)->class;
+            if (isnan(e))
+                continue;
+            report->error_pixels[class]++;
+            report->square_error[class] += (double)e * (double)e;
+        }
+    }
+    report->guessed = guessed / (double)report->pixels;
+}
+
+static void note_tiles(const render_job *job, wo_report *report)
 {
     const wo_plan *plan = job->plan;
-    wo_report part = plan->report;
-    const int64_t pixels =
-        (int64_t)wo_rect_width(job->window) * (int64_t)wo_rect_height(job->window);
-    part.seconds[WO_STAGE_RENDER] = seconds;
-    part.pixels = pixels;
-    part.rays = atomic_load(&job->rays);
-    part.steps = atomic_load(&job->steps);
-    for (int i = 0; i < WO_TILE_CLASS_COUNT; i++)
-        part.tiles[i] = atomic_load(&job->tile[i]);
-    part.guessed =
-        pixels > 0 ? (double)atomic_load(&job->guessed) / GUESS_UNIT / (double)pixels : 0;
-    part.guessed_pixels = atomic_load(&job->guessed_pixels);
-    for (int32_t ty = job->tiles.y1; ty < job->tiles.y2; ty++)
-        for (int32_t tx = job->tiles.x1; tx < job->tiles.x2; tx++)
-            part.largest_radius =
-                fmax(part.largest_radius, (double)wo_lens_rays_at(&plan->rays, tx, ty)->reach);
-    const double tile_rays = (double)plan->params.samples * WO_TILE_WIDTH * WO_TILE_HEIGHT;
-    if (part.tiles[WO_TILE_EMPTY] > 0)
-        wo_report_leave_out(&part, "rays of empty tiles", "nothing is there",
-                            tile_rays * (double)part.tiles[WO_TILE_EMPTY], "rays");
-    if (part.tiles[WO_TILE_SHARP] > 0 && plan->params.samples > 1)
-        wo_report_leave_out(&part, "rays of sharp tiles", "no blur: one ray a pixel",
-                            tile_rays * (1 - 1.0 / plan->params.samples) *
-                                (double)part.tiles[WO_TILE_SHARP],
+    const wo_rect tiles = job->frame.tiles;
+    for (int32_t ty = tiles.y1; ty < tiles.y2; ty++)
+        for (int32_t tx = tiles.x1; tx < tiles.x2; tx++)
+            report->largest_radius =
+                fmax(report->largest_radius, (double)wo_lens_rays_at(&plan->rays, tx, ty)->reach);
+    const double tile_rays = (double)plan->lens.count * WO_TILE_WIDTH * WO_TILE_HEIGHT;
+    if (report->tiles[WO_TILE_EMPTY] > 0)
+        wo_report_leave_out(report, "rays of empty tiles", "nothing is there",
+                            tile_rays * (double)report->tiles[WO_TILE_EMPTY], "rays");
+    if (report->tiles[WO_TILE_SHARP] > 0 && plan->lens.count > 1)
+        wo_report_leave_out(report, "rays of sharp tiles", "no blur: one ray a pixel",
+                            tile_rays * (1 - 1.0 / plan->lens.count) *
+                                (double)report->tiles[WO_TILE_SHARP],
                             "rays");
-    if (part.tiles[WO_TILE_SINGLE] > 0)
-        wo_report_leave_out(&part, "marching in tiles of one depth", "one lookup a ray is exact",
-                            (double)part.tiles[WO_TILE_SINGLE], "tiles");
-    if (atomic_load(&job->unmasked) > 0)
-        wo_report_leave_out(&part, "tiles outside the mask", "the source shows",
-                            (double)atomic_load(&job->unmasked), "tiles");
-    wo_report_add(report, &part);
+    if (report->tiles[WO_TILE_SINGLE] > 0)
+        wo_report_leave_out(report, "marching in tiles of one depth", "one lookup a ray is exact",
+                            (double)report->tiles[WO_TILE_SINGLE], "tiles");
+    if (job->skipped > 0)
+        wo_report_leave_out(report, "tiles outside the mask", "the source shows",
+                            (double)job->skipped, "tiles");
+}
+
+static wo_status render_frame(render_job *job, wo_report *report, wo_error *error)
+{
+    const wo_plan *plan = job->plan;
+    const wo_renderer *renderer = wo_renderer_of((wo_method)plan->params.method);
+    wo_report part = plan->report;
+    const double start = wo_seconds();
+    WO_TRY(make_frame(job, renderer, error));
+    const wo_defocus scene = {.context = &plan->context,
+                              .stack = &plan->stack,
+                              .lens = &plan->lens,
+                              .highlights = &plan->highlights,
+                              .rays = &plan->rays,
+                              .quality = plan->quality};
+    WO_TRY(renderer->render(&scene, &job->frame, &part, error));
+    part.seconds[WO_STAGE_RENDER] = wo_seconds() - start;
+    part.pixels = (int64_t)wo_rect_width(job->frame.window) * wo_rect_height(job->frame.window);
+    if (report) {
+        count_pixels(job, &part);
+        note_tiles(job, &part);
+        wo_report_add(report, &part);
+    }
+    return WO_OK;
 }
 
 wo_status wo_lens_blur_render(const wo_plan *plan, wo_rect window, const wo_image *output,
@@ -202,14 +210,15 @@ wo_status wo_lens_blur_render(const wo_plan *plan, wo_rect window, const wo_imag
     clear_outside(output, window, inside);
     if (wo_rect_empty(inside))
         return WO_OK;
-    const double start = wo_seconds();
-    render_job job = {
-        .plan = plan, .window = inside, .tiles = wo_tiles_of(inside), .output = output};
-    wo_run(&plan->context, render_tile, &job,
-           (size_t)wo_rect_width(job.tiles) * (size_t)wo_rect_height(job.tiles));
-    if (atomic_load(&job.stop))
-        return wo_fail(error, WO_ABORTED, "stopped by the user");
-    if (report)
-        fill_report(&job, wo_seconds() - start, report);
-    return WO_OK;
+    render_job job = {.plan = plan,
+                      .view = &wo_views[plan->params.output],
+                      .output = output,
+                      .frame = {.window = inside, .tiles = wo_tiles_of(inside)}};
+    wo_status status = WO_OK;
+    if (job.view->rendered)
+        status = render_frame(&job, report, error);
+    if (status == WO_OK)
+        wo_run(&plan->context, write_row, &job, (size_t)wo_rect_height(inside));
+    destroy_frame(&job);
+    return status;
 }

@@ -106,7 +106,7 @@ typedef struct wo_effect {
 
     /* Writes window of output (RGBA, premultiplied); window must lie inside the planned one and
        output->bounds; its part beyond geometry.extent becomes 0. report may be NULL; else it is
-       added to. Allocates nothing. Any thread, also several windows of one plan at once. Returns
+       added to. Any thread, also several windows of one plan at once. Returns
        WO_ABORTED when the caller wanted to stop. */
     wo_status (*render)(const wo_plan *plan, wo_rect window, const wo_image *output,
                         wo_report *report, wo_error *error);

@@ -53,6 +53,10 @@ typedef struct wo_report {
     int64_t rays;                   /* lens rays: pixels times samples where rays were traced */
     int64_t steps;                  /* layer lookups of all rays, each for one pixel */
     int64_t tiles[WO_TILE_CLASS_COUNT];
+    /* Estimated error of the displayed value (sRGB curve, 0..1), for methods that estimate it: sums
+       of squares over error_pixels pixels, by class of tile. */
+    double square_error[WO_TILE_CLASS_COUNT];
+    int64_t error_pixels[WO_TILE_CLASS_COUNT];
     double guessed;           /* fraction of all light that came from invented surfaces, 0..1 */
     int64_t guessed_pixels;   /* pixels with more than 1/255 of such light */
     int64_t sanitised_colour; /* samples that were NaN or Inf and became 0 */

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "effects/lens_blur_views.h"
+
+#include <math.h>
+#include <string.h>
+
+static void show(double value, float out[4])
+{
+    out[0] = out[1] = out[2] = (float)value;
+    out[3] = 1;
+}
+
+/* Vergence from the focus of the nearest surface that was given, or NaN. */
+static float nearest_surface(const wo_stack *stack, int32_t x, int32_t y)
+{
+    const ptrdiff_t at = wo_stack_at(stack, x, y);
+    float v = NAN;
+    for (int s = 0; s < stack->sheets; s++)
+        if (!stack->guessed[s] && stack->v[s][at] == stack->v[s][at] && !(stack->v[s][at] <= v))
+            v = stack->v[s][at];
+    return v;
+}
+
+static void image(const wo_plan *plan, const wo_frame *frame, int32_t x, int32_t y, float out[4])
+{
+    (void)plan;
+    memcpy(out, frame->c[wo_frame_at(frame, x, y)], 4 * sizeof *out);
+}
+
+static void circle_of_confusion(const wo_plan *plan, const wo_frame *frame, int32_t x, int32_t y,
+                                float out[4])
+{
+    (void)frame;
+    const float v = nearest_surface(&plan->stack, x, y);
+    show(isnan(v) ? 0 : plan->setup.lens.k * (double)v, out);
+}
+
+static void depth(const wo_plan *plan, const wo_frame *frame, int32_t x, int32_t y, float out[4])
+{
+    (void)frame;
+    const double v = (double)nearest_surface(&plan->stack, x, y) + plan->setup.lens.vf;
+    show(v > 1e-9 ? 1 / v : 0, out);
+}
+
+static void rays(const wo_plan *plan, const wo_frame *frame, int32_t x, int32_t y, float out[4])
+{
+    (void)plan;
+    show((double)frame->rays[wo_frame_at(frame, x, y)], out);
+}
+
+static void error(const wo_plan *plan, const wo_frame *frame, int32_t x, int32_t y, float out[4])
+{
+    (void)plan;
+    const float e = frame->error[wo_frame_at(frame, x, y)];
+    show(isnan(e) ? 0 : (double)e, out);
+}
+
+static void guessed(const wo_plan *plan, const wo_frame *frame, int32_t x, int32_t y, float out[4])
+{
+    (void)plan;
+    show((double)frame->guessed[wo_frame_at(frame, x, y)], out);
+    out[3] = out[0];
+}
+
+const wo_view wo_views[WO_OUTPUT_COUNT] = {
+    [WO_OUTPUT_IMAGE] = {true, image},  [WO_OUTPUT_COC] = {false, circle_of_confusion},
+    [WO_OUTPUT_DEPTH] = {false, depth}, [WO_OUTPUT_RAYS] = {true, rays},
+    [WO_OUTPUT_ERROR] = {true, error},  [WO_OUTPUT_GUESSED] = {true, guessed},
+};
