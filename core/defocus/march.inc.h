@@ -51,7 +51,9 @@ WO_SIMD ptrdiff_t place(const wo_march_view *view, int32_t x, int32_t y, int run
 
 /* Colour of sheet s around the pixels at (dx, dy), at the fractions (tx, ty) beside their centres:
    Dodgson's quadratic interpolation (1997). Neighbours on another surface lend the pixel's own
-   colour; joined = there are none. */
+   colour; joined = there are none. Beside a change of coverage it overshoots 0..1: colour and
+   coverage do so together, which keeps every sum over the ray right; cut, one colour would not stay
+   one colour. */
 WO_SIMD void sample_smooth(const wo_march_view *view, int s, int32_t x, int32_t y, int run_index,
                            int dx, int dy, vf tx, vf ty, bool joined, vf out[4])
 {
@@ -88,9 +90,6 @@ WO_SIMD void sample_smooth(const wo_march_view *view, int s, int32_t x, int32_t 
     }
     for (int k = 0; k < 4; k++)
         out[k] = v_fma(own, v_load(view->c[s][k] + centre), out[k]);
-    /* Overshoot may not make coverage leave 0..1. */
-    out[3] = v_select(v_less(one, out[3]), one, out[3]);
-    out[3] = v_select(v_less(out[3], v_set(0)), v_set(0), out[3]);
 }
 
 typedef struct hit {
@@ -102,15 +101,15 @@ typedef struct hit {
 
 /* What the rays of a vector carry. */
 typedef struct rays {
-    vf light; /* not yet stopped, 0..1 */
-    vf c[4];
+    vf light; /* not yet stopped, 0..1; what was stopped is the coverage */
+    vf c[3];
     vf guessed;
 } rays;
 
 WO_SIMD void meet(rays *r, vm mask, const vf c[4], int is_guess)
 {
     const vf light = v_mask(mask, r->light);
-    for (int k = 0; k < 4; k++)
+    for (int k = 0; k < 3; k++)
         r->c[k] = v_fma(light, c[k], r->c[k]);
     const vf stopped = v_mul(light, c[3]);
     if (is_guess)
@@ -149,7 +148,7 @@ static void meet_in_order(rays *r, hit *hits, int count, const bool *guessed)
             }
         }
         const vf stopped = v_mul(r->light, hits[i].c[3]);
-        for (int k = 0; k < 4; k++)
+        for (int k = 0; k < 3; k++)
             r->c[k] = v_fma(r->light, hits[i].c[k], r->c[k]);
         r->guessed = v_fma(stopped, is_guess[i], r->guessed);
         r->light = v_sub(r->light, stopped);
@@ -465,7 +464,7 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
             continue;
         const way w = way_of(view, pencil, n);
         const vf fall = v_set(-w.fall);
-        t.r = (rays){one, {zero, zero, zero, zero}, zero};
+        t.r = (rays){one, {zero, zero, zero}, zero};
         t.alive = m_set(-1);
         for (int s = 0; s < view->sheets; s++)
             t.known[s] = INT_MIN;
@@ -488,8 +487,11 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
             ends = m_or(ends, lost);
             t.r.guessed = v_add(t.r.guessed, v_mask(lost, left));
         }
-        const vf weight = v_select(ends, v_sub(one, left), one);
-        add_ray(pencil, n, t.r.c, weight, t.r.guessed, chunk);
+        /* The same number twice where a ray ends: an opaque scene has a coverage of exactly 1. */
+        const vf stopped = v_sub(one, left);
+        const vf c[4] = {t.r.c[0], t.r.c[1], t.r.c[2], stopped};
+        const vf weight = v_select(ends, stopped, one);
+        add_ray(pencil, n, c, weight, t.r.guessed, chunk);
         if (n % CHUNK == CHUNK - 1)
             add_chunk(total, chunk);
     }
@@ -528,7 +530,11 @@ static void single(const wo_march_view *view, int32_t x, int32_t y, int run_inde
             for (int k = 0; k < 4; k++)
                 c[k] = v_load(view->c[0][k] + at);
         }
-        add_ray(pencil, n, c, v_set(1), view->guessed[0] ? c[3] : v_set(0), chunk);
+        const vf one = v_set(1);
+        const vf left = v_sub(one, c[3]);
+        const vm ends = v_less_equal(left, v_set(WO_LIGHT_MIN));
+        const vf weight = v_select(ends, c[3], one);
+        add_ray(pencil, n, c, weight, view->guessed[0] ? c[3] : v_set(0), chunk);
         if (n % CHUNK == CHUNK - 1)
             add_chunk(total, chunk);
     }

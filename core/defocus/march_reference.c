@@ -35,7 +35,6 @@ static void interpolate(const wo_march_view *view, int s, int32_t x, int32_t y, 
                 c[k] += wx[a] * wy[b] * (double)view->c[s][k][at];
         }
     }
-    c[3] = fmin(fmax(c[3], 0), 1);
 }
 
 static void trace(const wo_march_view *view, int32_t x, int32_t y, const wo_pencil *pencil, int n,
@@ -97,7 +96,7 @@ static void trace(const wo_march_view *view, int32_t x, int32_t y, const wo_penc
                 for (int k = 0; k < 4; k++)
                     c[k] = (double)view->c[s][k][place_of(view, x, y, dx, dy)];
             }
-            for (int k = 0; k < 4; k++)
+            for (int k = 0; k < 3; k++)
                 sum[k] += light * c[k];
             *guessed += view->guessed[s] ? light * c[3] : 0;
             light -= light * c[3];
@@ -107,6 +106,7 @@ static void trace(const wo_march_view *view, int32_t x, int32_t y, const wo_penc
     }
     const bool faint = light <= (double)WO_LIGHT_MIN;
     const bool lost = !faint && view->opaque[place_of(view, x, y, dx, dy)] > 0.5f;
+    sum[3] += 1 - light;
     *weight += faint || lost ? 1 - light : 1;
     *guessed += lost ? light : 0;
 }

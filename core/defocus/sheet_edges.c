@@ -135,7 +135,7 @@ static void split_pixel(split_job *job, size_t at, float other_v, double f, cons
     const bool other_in_front = other_v > job->sheet->v[at];
     job->edges->v[at] = other_v;
     for (int k = 0; k < 4; k++) {
-        const double rest = fmax(c[k] - f * other[k], 0);
+        const double rest = fmax(c[k] - f * other[k], fmin((1 - f) * own[k], 0));
         if (!other_in_front) {
             back[k] = (float)rest;
             front[k] = (float)other[k];

@@ -16,3 +16,9 @@ foreach(name IN ITEMS invariance layout lens_image lens_looks quality)
     set_tests_properties(property.${name} PROPERTIES TIMEOUT 300)
 endforeach()
 set_tests_properties(property.layout PROPERTIES LABELS threads)
+
+# The same of every method, over the footage too.
+add_executable(test_coverage ${property_dir}/test_coverage.c)
+target_link_libraries(test_coverage PRIVATE wo_test_scenes wo_blur_footage)
+add_test(NAME property.coverage COMMAND test_coverage)
+set_tests_properties(property.coverage PROPERTIES TIMEOUT 600)
