@@ -101,15 +101,15 @@ typedef struct hit {
 
 /* What the rays of a vector carry. */
 typedef struct rays {
-    vf light; /* not yet stopped, 0..1; what was stopped is the coverage */
-    vf c[3];
+    vf light; /* not yet stopped, 0..1 */
+    vf c[4];
     vf guessed;
 } rays;
 
 WO_SIMD void meet(rays *r, vm mask, const vf c[4], int is_guess)
 {
     const vf light = v_mask(mask, r->light);
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 4; k++)
         r->c[k] = v_fma(light, c[k], r->c[k]);
     const vf stopped = v_mul(light, c[3]);
     if (is_guess)
@@ -148,7 +148,7 @@ static void meet_in_order(rays *r, hit *hits, int count, const bool *guessed)
             }
         }
         const vf stopped = v_mul(r->light, hits[i].c[3]);
-        for (int k = 0; k < 3; k++)
+        for (int k = 0; k < 4; k++)
             r->c[k] = v_fma(r->light, hits[i].c[k], r->c[k]);
         r->guessed = v_fma(stopped, is_guess[i], r->guessed);
         r->light = v_sub(r->light, stopped);
@@ -464,7 +464,7 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
             continue;
         const way w = way_of(view, pencil, n);
         const vf fall = v_set(-w.fall);
-        t.r = (rays){one, {zero, zero, zero}, zero};
+        t.r = (rays){one, {zero, zero, zero, zero}, zero};
         t.alive = m_set(-1);
         for (int s = 0; s < view->sheets; s++)
             t.known[s] = INT_MIN;
@@ -489,9 +489,9 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
         }
         /* The same number twice where a ray ends: an opaque scene has a coverage of exactly 1. */
         const vf stopped = v_sub(one, left);
-        const vf c[4] = {t.r.c[0], t.r.c[1], t.r.c[2], stopped};
+        t.r.c[3] = v_select(ends, stopped, t.r.c[3]);
         const vf weight = v_select(ends, stopped, one);
-        add_ray(pencil, n, c, weight, t.r.guessed, chunk);
+        add_ray(pencil, n, t.r.c, weight, t.r.guessed, chunk);
         if (n % CHUNK == CHUNK - 1)
             add_chunk(total, chunk);
     }
