@@ -94,6 +94,19 @@ WO_NODISCARD wo_status wo_sheet_fill_hidden(const wo_context *context, const wo_
                                             size_t count, double px_per_dioptre, int levels,
                                             wo_sheet *hidden, wo_error *error);
 
+/* Leaves of a clean plate only what is behind the count layers, which have its area: where a
+   surface is nearer by a visible difference of blur, and none that covers the pixel is at the
+   plate's own depth or farther. Elsewhere the scene itself shows it, or shows nothing. What edges
+   (of wo_sheet_split_edges) took from the pixels around for the same place goes. */
+void wo_sheet_keep_hidden(const wo_context *context, const wo_sheet *layers, size_t count,
+                          double px_per_dioptre, wo_sheet *edges, wo_sheet *plate);
+
+/* A clean plate without depth takes that of the continued surfaces (hidden, of
+   wo_sheet_fill_hidden, and edges), and their place: what they hold where the plate has nothing
+   stays. */
+void wo_sheet_lend_depth(const wo_context *context, const wo_sheet *layers, size_t count,
+                         double px_per_dioptre, wo_sheet *edges, wo_sheet *hidden, wo_sheet *plate);
+
 /* px that the fill with so many levels looks beyond a pixel; and the grid it wants areas on. */
 int32_t wo_sheet_fill_margin(int levels);
 

@@ -59,6 +59,7 @@ wo_status wo_lens_blur_prepare(const wo_lens_blur_params *params, const wo_geome
         setup->has_depth |=
             setup->layer_used[i] && params->use_depth && geometry->connected[2 * i + 1];
     }
+    setup->background_used = setup->has_depth && geometry->connected[WO_CLIP_BACKGROUND];
     setup->mask_used = params->use_mask && geometry->connected[WO_CLIP_MASK];
 
     double radius = params->max_radius * geometry->render_scale;
@@ -130,7 +131,8 @@ static wo_status region(const void *params, const wo_geometry *geometry, wo_rect
             *needed = window;
         return WO_OK;
     }
-    if (clip < WO_CLIP_MASK && setup.layer_used[clip / 2])
+    const bool plate = clip == WO_CLIP_BACKGROUND || clip == WO_CLIP_BACKGROUND_DEPTH;
+    if (plate ? setup.background_used : clip < WO_CLIP_MASK && setup.layer_used[clip / 2])
         *needed = wo_lens_blur_plan_areas(&setup, geometry, window).layers;
     return WO_OK;
 }

@@ -19,8 +19,8 @@ double wo_seconds(void)
 /* Tangent of the farthest field point that a table is made for: some 85 degrees. */
 #define FIELD_MAX 11.0
 
-/* Layers, then split edges, then what is hidden. */
-enum { EDGES = WO_LENS_BLUR_LAYERS, HIDDEN, SHEETS };
+/* Layers, then the clean plate, split edges, what is hidden. */
+enum { BACKGROUND = WO_LENS_BLUR_LAYERS, EDGES, HIDDEN, SHEETS };
 
 /* Between the steps of planning: does the caller still want the picture? */
 static wo_status go_on(const wo_context *context, wo_error *error)
@@ -54,11 +54,12 @@ static wo_status empty_sheet(const wo_context *context, wo_rect area, wo_sheet *
 static wo_sheet_source layer_source(const wo_plan *plan, const wo_plan_args *args, int layer)
 {
     const wo_lens_blur_setup *setup = &plan->setup;
+    const int clip = layer == BACKGROUND ? WO_CLIP_BACKGROUND : 2 * layer;
     return (wo_sheet_source){
-        .colour = &args->inputs[2 * layer],
-        .depth = plan->params.use_depth ? &args->inputs[2 * layer + 1] : NULL,
+        .colour = &args->inputs[clip],
+        .depth = plan->params.use_depth ? &args->inputs[clip + 1] : NULL,
         .depth_channel = plan->params.depth_channel,
-        .alpha = args->alpha[2 * layer],
+        .alpha = args->alpha[clip],
         .reading = setup->reading,
         .extent = plan->geometry.extent,
         .format = plan->geometry.format,
@@ -74,11 +75,13 @@ static wo_status load_layers(const wo_plan *plan, const wo_plan_args *args, wo_r
                              wo_sheet sheets[SHEETS], wo_sheet_counts *counts, wo_error *error)
 {
     const wo_lens_blur_setup *setup = &plan->setup;
-    for (int i = 0; i < WO_LENS_BLUR_LAYERS; i++) {
-        if (!setup->layer_used[i] || !args->inputs[2 * i].data)
+    for (int i = 0; i <= BACKGROUND; i++) {
+        const wo_sheet_source source = layer_source(plan, args, i);
+        const bool used = i == BACKGROUND ? setup->background_used && setup->fill_levels > 0
+                                          : setup->layer_used[i];
+        if (!used || !source.colour->data)
             continue;
         WO_TRY(wo_sheet_create(&plan->context, area, &sheets[i], error));
-        const wo_sheet_source source = layer_source(plan, args, i);
         WO_TRY(wo_sheet_load(&plan->context, &source, plan->window, &sheets[i], counts, error));
         WO_TRY(go_on(&plan->context, error));
     }
@@ -118,6 +121,11 @@ static void note_layers(wo_plan *plan, const wo_sheet sheets[SHEETS], int64_t sp
     else if (split == 0)
         wo_report_leave_out(report, "sheet of split edges", "no pixel mixes two distances", 1,
                             "sheets");
+    if (plan->geometry.connected[WO_CLIP_BACKGROUND] && !sheets[BACKGROUND].any)
+        wo_report_leave_out(report, "clean plate",
+                            plan->setup.has_depth ? "it shows nothing that is hidden"
+                                                  : "without depth nothing is hidden",
+                            1, "sheets");
     if (plan->setup.has_depth && !sheets[HIDDEN].any)
         wo_report_leave_out(report, "sheet of hidden surfaces", "nothing is hidden", 1, "sheets");
     if (!plan->lens.connect)
@@ -127,29 +135,87 @@ static void note_layers(wo_plan *plan, const wo_sheet sheets[SHEETS], int64_t sp
         wo_report_leave_out(report, "connections to highlights", "no blurred highlight", 0, "");
 }
 
-/* Antialiased depth, then antialiased colour. */
+/* For the view: pixels of the window that were touched. */
+static void mark_split(wo_plan *plan, wo_rect area, const float *v, uint8_t mark)
+{
+    const wo_rect w = plan->window;
+    for (int32_t y = w.y1; y < w.y2; y++) {
+        const float *row = v + (size_t)(y - area.y1) * (size_t)wo_rect_width(area);
+        uint8_t *to = plan->split + (size_t)(y - w.y1) * (size_t)wo_rect_width(w);
+        for (int32_t x = w.x1; x < w.x2; x++)
+            if (!isnan(row[x - area.x1]))
+                to[x - w.x1] = mark;
+    }
+}
+
+/* Antialiased depth, then antialiased colour. The clean plate is not split: nobody sees its edges
+   in focus. */
 static wo_status mend_edges(wo_plan *plan, const wo_plan_args *args, int layer,
                             wo_sheet sheets[SHEETS], int64_t *split, wo_error *error)
 {
     const wo_context *context = &plan->context;
     const wo_sheet_source source = layer_source(plan, args, layer);
+    const double px = plan->lens.px_per_dioptre;
     wo_sheet *sheet = &sheets[layer];
     const size_t n = (size_t)wo_rect_width(sheet->area) * (size_t)wo_rect_height(sheet->area);
     float *mix = NULL;
-    wo_status status = WO_OK;
-    if (source.depth && source.depth->data) {
+    wo_status status = go_on(context, error);
+    if (status == WO_OK && plan->params.edge_repair == WO_EDGES_OF_COLOUR_AND_DEPTH &&
+        source.depth && source.depth->data) {
         if (!(mix = wo_new_large(context, error, n, sizeof *mix)))
             return WO_ERR_NOMEM;
-        status = wo_sheet_repair_depth(context, &source, plan->lens.px_per_dioptre, plan->window,
-                                       sheet, mix, &plan->report.mixed_depth, error);
+        status = wo_sheet_repair_depth(context, &source, px, plan->window, sheet, mix,
+                                       &plan->report.mixed_depth, error);
+        if (status == WO_OK && plan->split)
+            mark_split(plan, sheet->area, mix, WO_SPLIT_DEPTH);
     }
     if (status == WO_OK)
         status = go_on(context, error);
-    if (status == WO_OK)
-        status = wo_sheet_split_edges(context, plan->lens.px_per_dioptre, mix, sheet,
-                                      &sheets[EDGES], split, error);
+    if (status == WO_OK && layer != BACKGROUND)
+        status = wo_sheet_split_edges(context, px, mix, sheet, &sheets[EDGES], split, error);
     wo_delete(context, mix);
     return status;
+}
+
+/* What is behind the layers: the clean plate, then what can be told from the surfaces around. */
+static wo_status add_hidden(wo_plan *plan, bool plate_has_depth, wo_sheet sheets[SHEETS],
+                            wo_error *error)
+{
+    const wo_context *context = &plan->context;
+    const double px = plan->lens.px_per_dioptre;
+    wo_sheet *plate = &sheets[BACKGROUND];
+    const bool any = plate->any;
+    plate->any = false; /* it hides nothing itself */
+    if (any && plate_has_depth)
+        wo_sheet_keep_hidden(context, sheets, WO_LENS_BLUR_LAYERS, px, &sheets[EDGES], plate);
+    WO_TRY(go_on(context, error));
+    WO_TRY(empty_sheet(context, sheets[EDGES].area, &sheets[HIDDEN], error));
+    WO_TRY(wo_sheet_fill_hidden(context, sheets, HIDDEN, px, plan->setup.fill_levels,
+                                &sheets[HIDDEN], error));
+    if (any && !plate_has_depth)
+        wo_sheet_lend_depth(context, sheets, WO_LENS_BLUR_LAYERS, px, &sheets[EDGES],
+                            &sheets[HIDDEN], plate);
+    return WO_OK;
+}
+
+/* All that a scene with depth needs besides its layers. */
+static wo_status add_sheets(wo_plan *plan, const wo_plan_args *args, wo_rect area,
+                            wo_sheet sheets[SHEETS], int64_t *split, wo_error *error)
+{
+    const wo_context *context = &plan->context;
+    const wo_rect w = plan->window;
+    if (plan->params.output == WO_OUTPUT_SPLIT &&
+        !(plan->split =
+              wo_new(context, error, (size_t)wo_rect_width(w) * (size_t)wo_rect_height(w), 1)))
+        return WO_ERR_NOMEM;
+    WO_TRY(empty_sheet(context, area, &sheets[EDGES], error));
+    for (int i = 0; i <= BACKGROUND; i++)
+        if (sheets[i].any && plan->params.edge_repair != WO_EDGES_AS_THEY_ARE)
+            WO_TRY(mend_edges(plan, args, i, sheets, split, error));
+    if (plan->split)
+        mark_split(plan, area, sheets[EDGES].v, WO_SPLIT_TWO);
+    const wo_image *plate_depth = &args->inputs[WO_CLIP_BACKGROUND_DEPTH];
+    return add_hidden(plan, plate_depth->data != NULL, sheets, error);
 }
 
 static wo_status build_scene(wo_plan *plan, const wo_plan_args *args, wo_error *error)
@@ -172,19 +238,8 @@ static wo_status build_scene(wo_plan *plan, const wo_plan_args *args, wo_error *
     opaque_job job = {sheets, w, opaque};
     if (status == WO_OK)
         wo_run(context, opaque_row, &job, h);
-    if (status == WO_OK && plan->setup.fill_levels > 0) {
-        status = empty_sheet(context, area, &sheets[EDGES], error);
-        for (int i = 0; status == WO_OK && i < WO_LENS_BLUR_LAYERS; i++)
-            if (sheets[i].any && (status = go_on(context, error)) == WO_OK)
-                status = mend_edges(plan, args, i, sheets, &split, error);
-        if (status == WO_OK)
-            status = go_on(context, error);
-        if (status == WO_OK)
-            status = empty_sheet(context, area, &sheets[HIDDEN], error);
-        if (status == WO_OK)
-            status = wo_sheet_fill_hidden(context, sheets, HIDDEN, plan->lens.px_per_dioptre,
-                                          plan->setup.fill_levels, &sheets[HIDDEN], error);
-    }
+    if (status == WO_OK && plan->setup.fill_levels > 0)
+        status = add_sheets(plan, args, area, sheets, &split, error);
     if (status == WO_OK)
         status = go_on(context, error);
     if (status == WO_OK)
@@ -379,6 +434,7 @@ void wo_lens_blur_plan_destroy(wo_plan **plan)
     wo_highlights_destroy(&context, &(*plan)->highlights);
     wo_thin_pencils_destroy(&context, &(*plan)->pencils);
     wo_table_pencils_destroy(&context, &(*plan)->table);
+    wo_delete(&context, (*plan)->split);
     wo_delete(&context, *plan);
     *plan = NULL;
 }
