@@ -64,7 +64,8 @@ int wo_read_colour(const wo_image *image, wo_alpha alpha, int32_t x, int32_t y, 
 /* Repairs antialiased depth: a pixel whose depth lies on a step between two surfaces, where it
    mixes both and belongs to neither, gets the vergence of the one that has the larger part in it.
    The surfaces are the nearest pixels on either side, at most 4 px away, from where depth goes on
-   flat or turns round: slopes and blocks of 2 x 2 px of one depth stay as they are. Depth mixes in
+   flat or turns round: slopes and blocks of 2 x 2 px of one depth stay as they are; of a ball,
+   the last px before its outline may go flat. Depth mixes in
    the unit it is given in, whatever that is, also with a background at 1e10. Only a visible
    difference of blur counts (px_per_dioptre). source->depth must be connected. mix, as large as the
    sheet, becomes the part of the nearer surface in each repaired pixel's depth and NaN elsewhere;

@@ -12,7 +12,8 @@ enum { RUN = 4, DIRECTIONS = 4, CHAIN = 4 };
 /* A change below this fraction of the whole step is the slope of a surface, in depth and in
    vergence: what is little of the one can be much of the other. */
 #define FLAT 0.01
-/* What still changes by more at the end of what is looked at is a slope, no step. */
+/* What still changes by more at the end of what is looked at is a slope, no step; what changes by
+   less there may change twice as fast on the way. */
 #define SLOPE 0.04
 /* A pixel that is one with a block of 2 x 2 to this fraction is a surface, not a mixture. */
 #define SAME 0.01
@@ -76,14 +77,33 @@ static int run_of(const repair_job *job, int32_t x, int32_t y, int a, int b, int
     return n;
 }
 
-/* Do two pixels differ by less than a fraction of the step between two others? */
-static bool flat(const repair_job *job, size_t a, size_t b, const size_t step[2], double fraction)
+/* How much two pixels differ, relative to the step between two others: in depth or in vergence,
+   whatever is more. */
+static double difference(const repair_job *job, size_t a, size_t b, const size_t step[2])
 {
     const double z = fabs((double)job->depth[step[0]] - (double)job->depth[step[1]]);
     const double v = fabs((double)job->v[step[0]] - (double)job->v[step[1]]);
     const double dz = fabs((double)job->depth[a] - (double)job->depth[b]);
     const double dv = fabs((double)job->v[a] - (double)job->v[b]);
-    return dz <= fraction * z && !(dv > fraction * v);
+    return fmax(dz / z, dv > 0 && v > 0 ? dv / v : 0);
+}
+
+/* Shortens one end of a run by what is slope of a surface; false when all of it may be. */
+static bool trim(const repair_job *job, ptrdiff_t next, const size_t whole[2], size_t *end,
+                 int *run)
+{
+    double flat = FLAT;
+    if (*run == RUN) {
+        const double last = difference(job, *end, *end - (size_t)next, whole);
+        if (!(last <= SLOPE))
+            return false;
+        flat = fmax(flat, 2 * last);
+    }
+    while (*run > 0 && difference(job, *end, *end - (size_t)next, whole) <= flat) {
+        *end -= (size_t)next;
+        (*run)--;
+    }
+    return *run > 0;
 }
 
 /* Does depth step over the pixel in the direction (a, b), from one surface to another? */
@@ -97,21 +117,9 @@ static bool step_along(const repair_job *job, int32_t x, int32_t y, int a, int b
     int down = run_of(job, x, y, -a, -b, -sign);
     if (up == 0 || down == 0)
         return false;
-    /* Give up the ends that are the slope of a surface; what is slope to the end of what was looked
-       at has no end. */
     size_t end[2] = {here + (size_t)(up * next), here - (size_t)(down * next)};
     const size_t whole[2] = {end[0], end[1]};
-    const bool slope = (up == RUN && !flat(job, end[0], end[0] - (size_t)next, whole, SLOPE)) ||
-                       (down == RUN && !flat(job, end[1], end[1] + (size_t)next, whole, SLOPE));
-    while (up > 0 && flat(job, end[0], end[0] - (size_t)next, whole, FLAT)) {
-        end[0] -= (size_t)next;
-        up--;
-    }
-    while (down > 0 && flat(job, end[1], end[1] + (size_t)next, whole, FLAT)) {
-        end[1] += (size_t)next;
-        down--;
-    }
-    if (up == 0 || down == 0 || slope)
+    if (!trim(job, next, whole, &end[0], &up) || !trim(job, -next, whole, &end[1], &down))
         return false;
     const bool near = isnan(job->v[end[1]]) || job->v[end[0]] > job->v[end[1]];
     out->near = end[near ? 0 : 1];
@@ -141,9 +149,9 @@ static bool is_surface(const repair_job *job, int32_t x, int32_t y, const mixed 
         if (x + a < 0 || x + a >= job->w || y + b < 0 || y + b >= job->h)
             continue;
         const ptrdiff_t up = (ptrdiff_t)b * job->w;
-        if (flat(job, at, at + (size_t)a, step, SAME) &&
-            flat(job, at, at + (size_t)up, step, SAME) &&
-            flat(job, at, at + (size_t)(up + a), step, SAME))
+        if (difference(job, at, at + (size_t)a, step) <= SAME &&
+            difference(job, at, at + (size_t)up, step) <= SAME &&
+            difference(job, at, at + (size_t)(up + a), step) <= SAME)
             return true;
     }
     return false;
