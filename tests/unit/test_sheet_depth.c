@@ -157,10 +157,10 @@ static void what_is_no_mixture_stays(void **state)
         /* Beside the ball's outline its slope may go flat, and a little of what is behind. */
         const double r = hypot(i % SIDE + 0.5 - 15, i / SIDE + 0.5 - 17);
         const double changed = PX * ((double)sheet.v[i] - (double)before[i]);
-        if (fabs(r - 11) > 5)
+        if (r < 5 || (r > 16 && i / SIDE < 30))
             assert_true(changed == 0);
         else
-            assert_near(changed, 0, r < 11 ? 1.7 : 0.3);
+            assert_near(changed, 0, r < 11 ? 2.4 : 0.3);
     }
     wo_sheet_destroy(&plain, &sheet);
     picture_free(&depth);
