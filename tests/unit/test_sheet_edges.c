@@ -75,7 +75,8 @@ static void mixtures_are_unmixed(void **state)
         wo_sheet edges = sheet_make(square);
         int64_t split = 0;
         int64_t counted = 0;
-        assert_int_equal(wo_sheet_split_edges(&plain, 4, NULL, &sheet, &edges, &split, NULL), WO_OK);
+        assert_int_equal(wo_sheet_split_edges(&plain, 4, NULL, &sheet, &edges, &split, NULL),
+                         WO_OK);
         /* Away from the border of the picture, where the neighbours are known. */
         for (int32_t i = 0; i < SIDE * SIDE; i++) {
             const double part = near_part(angle, shift, i % SIDE, i / SIDE);
