@@ -50,6 +50,7 @@ typedef struct wo_renderer {
 } wo_renderer;
 
 #define WO_RENDERER_LIST(X)                                                                        \
+    X(WO_METHOD_HYBRID, wo_render_hybrid)                                                          \
     X(WO_METHOD_RAYS, wo_render_rays)                                                              \
     X(WO_METHOD_REFERENCE, wo_render_reference)
 

@@ -24,10 +24,13 @@ bool wo_lens_blur_has_table(const wo_lens_blur_params *p)
            p->door_bottom != 0 || p->door_top != 0;
 }
 
-wo_status wo_lens_blur_prepare(const wo_lens_blur_params *params, const wo_geometry *geometry,
+wo_status wo_lens_blur_prepare(const wo_lens_blur_params *wanted, const wo_geometry *geometry,
                                wo_lens_blur_setup *setup, wo_error *error)
 {
+    wo_lens_blur_params own = *wanted;
+    const wo_lens_blur_params *const params = &own;
     *setup = (wo_lens_blur_setup){0};
+    wo_lens_blur_use_camera(&own, &geometry->camera, NULL);
     WO_TRY(wo_params_validate(wo_lens_blur_table, WO_LENS_BLUR_PARAMS, params, error));
     const double width = wo_rect_width(geometry->format);
     WO_TRY(wo_thin_lens_make(params->focal_length, params->sensor_width, params->f_stop,

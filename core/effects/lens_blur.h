@@ -18,8 +18,18 @@ typedef enum wo_lens_blur_output {
     WO_OUTPUT_COUNT
 } wo_lens_blur_output;
 
+/* Whose camera counts where the metadata names one. */
+typedef enum wo_lens_blur_camera {
+    WO_CAMERA_FROM_PARAMETERS,
+    WO_CAMERA_FROM_METADATA,
+    WO_CAMERA_FROM_OWN_FOCUS, /* metadata, but the parameter's focus */
+    WO_CAMERA_FROM_OWN_STOP,
+    WO_CAMERA_FROM_OWN_BOTH
+} wo_lens_blur_camera;
+
 /* What the user wants; the rows of the table in lens_blur_params.c describe each field. */
 typedef struct wo_lens_blur_params {
+    int32_t camera_from;
     double focal_length;
     double sensor_width;
     double f_stop;
@@ -68,7 +78,7 @@ typedef struct wo_lens_blur_params {
     int32_t output;
 } wo_lens_blur_params;
 
-enum { WO_LENS_BLUR_PARAMS = 49, WO_LENS_BLUR_GROUPS = 6 };
+enum { WO_LENS_BLUR_PARAMS = 50, WO_LENS_BLUR_GROUPS = 6 };
 typedef enum wo_edge_repair {
     WO_EDGES_AS_THEY_ARE,
     WO_EDGES_OF_COLOUR,
@@ -112,6 +122,13 @@ typedef struct wo_lens_blur_setup {
 /* Does the lens need more than the pencils of the thin lens? */
 bool wo_lens_blur_has_table(const wo_lens_blur_params *params);
 
+/* Puts the camera of the metadata in place of the parameters that camera_from gives up. Each value
+   that is known, and each that was refused, is noted in report, which may be NULL. Doing it twice
+   is doing it once. */
+void wo_lens_blur_use_camera(wo_lens_blur_params *params, const wo_camera *camera,
+                             wo_report *report);
+
+/* With the camera of the metadata, if params want it. */
 WO_NODISCARD wo_status wo_lens_blur_prepare(const wo_lens_blur_params *params,
                                             const wo_geometry *geometry, wo_lens_blur_setup *setup,
                                             wo_error *error);

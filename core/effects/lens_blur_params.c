@@ -31,14 +31,45 @@ static const char *const repairs[] = {"off", "colour", "all", NULL};
 static const char *const repair_labels[] = {"Off", "Antialiased colour",
                                             "Antialiased colour and depth", NULL};
 
-static const char *const methods[] = {"rays", "reference", NULL};
-static const char *const method_labels[] = {"Rays", "Reference", NULL};
+static const char *const methods[] = {"hybrid", "rays", "reference", NULL};
+static const char *const method_labels[] = {"Hybrid", "Rays", "Reference", NULL};
 static const char *const samplings[] = {"fixed", "adaptive", NULL};
 static const char *const sampling_labels[] = {"Fixed", "Adaptive", NULL};
+
+static const char *const cameras[] = {"parameters",
+                                      "metadata",
+                                      "metadataOwnFocus",
+                                      "metadataOwnFNumber",
+                                      "metadataOwnFocusAndFNumber",
+                                      NULL};
+static const char *const camera_labels[] = {"Parameters",
+                                            "Metadata",
+                                            "Metadata, own focus",
+                                            "Metadata, own f-number",
+                                            "Metadata, own focus and f-number",
+                                            NULL};
 
 #include "effects/lens_choices.inc.h"
 
 const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
+    {.key = "cameraFrom",
+     .label = "Camera from",
+     .unit = "",
+     .group = "camera",
+     .help = "Parameters: the values below and those of Depth, whatever the file says. The others "
+             "put the camera that the metadata of Source or Depth names in their place, value by "
+             "value (focal length, sensor width, f-number, focus, near, far, units); what the "
+             "metadata lacks stays as set here, and so does what is called own. Needs a host that "
+             "passes metadata on; in others it changes nothing.",
+     .type = WO_PARAM_CHOICE,
+     .offset = FIELD(camera_from),
+     .initial = {WO_CAMERA_FROM_PARAMETERS},
+     .min = 0,
+     .max = 4,
+     .ui_min = 0,
+     .ui_max = 4,
+     .choices = cameras,
+     .choice_labels = camera_labels},
     {.key = "focalLength",
      .label = "Focal length",
      .unit = "mm",

@@ -394,6 +394,7 @@ wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params
     plan->context = *context;
     memcpy(&plan->params, params, sizeof plan->params);
     plan->geometry = args->geometry;
+    wo_lens_blur_use_camera(&plan->params, &plan->geometry.camera, &plan->report);
     for (size_t i = 0; i < WO_LENS_BLUR_CLIPS; i++)
         plan->geometry.connected[i] = args->inputs[i].data != NULL;
     const bool adaptive = plan->params.sampling == WO_SAMPLING_ADAPTIVE;
@@ -457,6 +458,17 @@ static void add(printer *p, const char *format, ...)
     p->length += n > 0 ? n : 0;
 }
 
+static void add_camera(printer *p, const wo_camera_use *use)
+{
+    add(p, "camera      ");
+    if (use->key[0])
+        add(p, "%s %g%s%s from ", use->key, use->value, use->unit[0] ? " " : "", use->unit);
+    add(p, "%s", use->name);
+    if (use->why[0])
+        add(p, ": not used, %s", use->why);
+    add(p, "\n");
+}
+
 int wo_lens_blur_plan_print(const wo_plan *plan, char *buffer, size_t size)
 {
     printer p = {buffer, size, 0};
@@ -477,6 +489,8 @@ int wo_lens_blur_plan_print(const wo_plan *plan, char *buffer, size_t size)
     add(&p, "lens        %g mm f/%g, focus at %g m; blur radius %.4g px per dioptre\n",
         plan->params.focal_length, plan->params.f_stop, plan->params.focus_distance,
         plan->lens.px_per_dioptre);
+    for (int i = 0; i < plan->report.camera_count; i++)
+        add_camera(&p, &plan->report.camera[i]);
     if (plan->table) {
         const wo_table_facts *f = &plan->facts;
         const bool real =

@@ -15,11 +15,13 @@ struct wo_table_pencils {
     bool uniform; /* all weights are 1 */
     bool has_doors;
     unsigned sets;
-    int begin[WO_LINES_MAX + 1]; /* first ray of each wavelength */
-    size_t stride;               /* floats of one coordinate of a set */
-    float *points;               /* [sets][3][stride]: iris points and their weights, wavelength by
-                                    wavelength */
-    double reach_a, reach_b;     /* px, px per dioptre */
+    int half;
+    int begin[2 * WO_LINES_MAX + 1]; /* first ray of each wavelength of the first half of the rays,
+                                        then of the second */
+    size_t stride;                   /* floats of one coordinate of a set */
+    float *points;           /* [sets][3][stride]: iris points and their weights, wavelength by
+                                wavelength */
+    double reach_a, reach_b; /* px, px per dioptre */
 };
 
 /* Rays of one wavelength, at tangent h in the direction (c, s) from the axis. */
@@ -95,11 +97,11 @@ static void table_pencil(const void *self, double x, double y, unsigned set, int
     const float *points = p->points + 3 * p->stride * set;
     const int left = p->options.count - first;
     const int count = left < WO_PENCIL_PIECE ? left : WO_PENCIL_PIECE;
-    for (int line = 0; line < p->table->lines; line++) {
-        const int from = p->begin[line] > first ? p->begin[line] : first;
-        const int to = p->begin[line + 1] < first + count ? p->begin[line + 1] : first + count;
+    for (int run = 0; run < 2 * p->table->lines; run++) {
+        const int from = p->begin[run] > first ? p->begin[run] : first;
+        const int to = p->begin[run + 1] < first + count ? p->begin[run + 1] : first + count;
         if (from < to)
-            make_rays(p, line, h, c, s, points + from, points + p->stride + from,
+            make_rays(p, run % p->table->lines, h, c, s, points + from, points + p->stride + from,
                       points + 2 * p->stride + from, to - from, from - first, room);
     }
     if (p->has_doors)
@@ -116,6 +118,23 @@ static double table_reach(const void *self, double v_far, double v_near)
     return fmin(p->reach_a + p->reach_b * fmax(fabs(v_far), fabs(v_near)), p->options.max_reach);
 }
 
+/* Rays of a wavelength, in both halves. */
+static int rays_of(const wo_table_pencils *p, int line)
+{
+    const int64_t count = p->options.count;
+    return (int)(count * (line + 1) / p->table->lines - count * line / p->table->lines);
+}
+
+static void share_rays(wo_table_pencils *p)
+{
+    const int lines = p->table->lines;
+    for (int run = 0; run < 2 * lines; run++) {
+        const int n = rays_of(p, run % lines);
+        p->begin[run + 1] = p->begin[run] + (run < lines ? n / 2 : n - n / 2);
+    }
+    p->half = p->begin[lines];
+}
+
 /* Iris points of all sets: for each wavelength a lattice of its own, moved against the others'. */
 static void make_points(wo_table_pencils *p, const wo_aperture_shape *shape)
 {
@@ -125,14 +144,15 @@ static void make_points(wo_table_pencils *p, const wo_aperture_shape *shape)
         float *const y = x + p->stride;
         float *const light = y + p->stride;
         for (int line = 0; line < lines; line++) {
-            const int begin = p->begin[line];
-            const int n = p->begin[line + 1] - begin;
+            const int n = rays_of(p, line);
             for (int i = 0; i < n; i++) {
+                const int to = i < n / 2 ? p->begin[line] + i : p->begin[lines + line] + i - n / 2;
                 double u[2];
-                wo_lattice_point(p->options.seed, set, i + (line + 0.5) / lines, n, line, shape, u);
-                x[begin + i] = (float)u[0];
-                y[begin + i] = (float)u[1];
-                light[begin + i] = (float)(wo_aperture_weight(shape, u[0], u[1]) / shape->light);
+                wo_lattice_point(p->options.seed, set,
+                                 wo_lattice_order(i, n) + (line + 0.5) / lines, n, line, shape, u);
+                x[to] = (float)u[0];
+                y[to] = (float)u[1];
+                light[to] = (float)(wo_aperture_weight(shape, u[0], u[1]) / shape->light);
             }
         }
     }
@@ -229,8 +249,7 @@ wo_status wo_table_pencils_create(const wo_context *context, const wo_lens_model
     }
     if (status == WO_OK) {
         const int lines = p->table->lines;
-        for (int i = 0; i <= lines; i++)
-            p->begin[i] = (int)((int64_t)options->count * i / lines);
+        share_rays(p);
         p->uniform &= lines == 1;
         p->sets = wo_lattice_sets(options->count);
         p->stride = (size_t)options->count + WO_LANES;
@@ -273,6 +292,7 @@ wo_lens wo_table_pencils_lens(const wo_table_pencils *pencils)
     return (wo_lens){.self = pencils,
                      .sets = pencils->sets,
                      .count = pencils->options.count,
+                     .half = pencils->half,
                      .pencil = table_pencil,
                      .reach = table_reach,
                      .px_per_dioptre = pencils->options.px_per_dioptre};
