@@ -32,7 +32,7 @@ enum {
 
 enum { WO_HYBRID_CELL = 8, WO_HYBRID_TAPS_MAX = 64, WO_HYBRID_KERNELS = 33 };
 
-/* A kernel over whole pixels. gain: sum of squares of the weights, the noise that is left. */
+/* A kernel over whole pixels. gain: how much of the variance it leaves. */
 typedef struct wo_hybrid_kernel {
     int count;
     int8_t x[WO_HYBRID_TAPS_MAX], y[WO_HYBRID_TAPS_MAX];
@@ -70,6 +70,11 @@ typedef struct wo_hybrid {
     int32_t columns, rows; /* of cells */
     wo_hybrid_kernel kernels[WO_HYBRID_KERNELS];
 } wo_hybrid;
+
+/* Index of the kernel for a part with these sums of coverage and of coverage over vergence, at so
+   many rays a pixel. */
+int wo_hybrid_kernel_for(const wo_hybrid *hybrid, bool near, double rays, double coverage,
+                         double by_vergence);
 
 /* Fills the planes of one tile. false when stopped. */
 bool wo_hybrid_trace(wo_hybrid *hybrid, int32_t tx, int32_t ty, wo_report *part);

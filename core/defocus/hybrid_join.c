@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
+#include "defocus/adaptive.h"
 #include "defocus/hybrid.h"
 
 #include <math.h>
 #include <string.h>
+
+/* Neighbours share rays, and a little detail moves: measured on footage. */
+#define SMOOTH_LEAVES 3.0f
 
 void wo_hybrid_kernels(wo_hybrid_kernel kernels[WO_HYBRID_KERNELS])
 {
@@ -35,14 +39,15 @@ void wo_hybrid_kernels(wo_hybrid_kernel kernels[WO_HYBRID_KERNELS])
         }
         for (int i = 0; i < k->count; i++)
             k->weight[i] = 1.0f / (float)k->count;
-        k->gain = 1.0f / (float)k->count;
+        k->gain = fminf(1, SMOOTH_LEAVES / (float)k->count);
     }
 }
 
 /* Radius of smoothing, as part of the radius of blur beyond SMOOTH_FROM_PX, at SMOOTH_RAYS rays a
    pixel; it falls with this power of their number, as noise falls. Found by rendering the footage:
    less leaves noise, more takes detail. */
-#define SMOOTH_PART    0.25
+#define SMOOTH_NEAR    0.22
+#define SMOOTH_FAR     0.35
 #define SMOOTH_FROM_PX 1.0
 #define SMOOTH_RAYS    16.0
 #define SMOOTH_POWER   0.3
@@ -52,15 +57,16 @@ static ptrdiff_t cell_origin(const wo_hybrid *h, int32_t column, int32_t row)
     return (ptrdiff_t)row * WO_HYBRID_CELL * h->width + (ptrdiff_t)column * WO_HYBRID_CELL;
 }
 
-/* Kernel for a part with these sums of coverage and of coverage over vergence. */
-static uint8_t choose(const wo_hybrid *h, double rays, double coverage, double by_vergence)
+int wo_hybrid_kernel_for(const wo_hybrid *h, bool near, double rays, double coverage,
+                         double by_vergence)
 {
     if (!(by_vergence > 0))
         return 0;
     const double blur = h->scene->lens->px_per_dioptre * coverage / by_vergence;
-    const double part = SMOOTH_PART * pow(SMOOTH_RAYS / fmax(1, rays), SMOOTH_POWER);
+    const double part =
+        (near ? SMOOTH_NEAR : SMOOTH_FAR) * pow(SMOOTH_RAYS / fmax(1, rays), SMOOTH_POWER);
     const double q = 4 * part * (blur - SMOOTH_FROM_PX);
-    return (uint8_t)(q < 0 ? 0 : q > WO_HYBRID_KERNELS - 1 ? WO_HYBRID_KERNELS - 1 : q + 0.5);
+    return (int)(q < 0 ? 0 : q > WO_HYBRID_KERNELS - 1 ? WO_HYBRID_KERNELS - 1 : q + 0.5);
 }
 
 void wo_hybrid_choose(wo_hybrid *h, int32_t row)
@@ -94,8 +100,8 @@ void wo_hybrid_choose(wo_hybrid *h, int32_t row)
         const double rays =
             (double)
                 h->rays[row * wo_rect_width(h->tiles) + column * WO_HYBRID_CELL / WO_TILE_WIDTH];
-        cell->near = choose(h, rays, sum[0], sum[1]);
-        cell->far = choose(h, rays, sum[2], sum[3]);
+        cell->near = (uint8_t)wo_hybrid_kernel_for(h, true, rays, sum[0], sum[1]);
+        cell->far = (uint8_t)wo_hybrid_kernel_for(h, false, rays, sum[2], sum[3]);
         cell->own_noise = (float)(own / (WO_HYBRID_CELL * WO_HYBRID_CELL));
         for (int n = 0; n < 3; n++)
             cell->noise[n] = (float)(sum[4 + n] / (cells * WO_HYBRID_CELL * WO_HYBRID_CELL));
@@ -246,7 +252,7 @@ void wo_hybrid_join(const wo_hybrid *h, int32_t tx, int32_t ty, wo_tile_pixels *
                 if (cell->near > 0 || cell->far > 0)
                     keep_within_noise(h, at, cell->own_noise, c);
                 pixels->guessed[y][x0 + x] = h->plane[WO_HYBRID_GUESSED][at];
-                facts->error[y][x0 + x] = sqrtf(noise);
+                facts->error[y][x0 + x] = (float)WO_HALVES_TO_ERROR * sqrtf(noise);
                 facts->rays[y][x0 + x] = h->rays[tile];
             }
         }

@@ -5,11 +5,11 @@
 #include <math.h>
 #include <stdatomic.h>
 
-/* Tiles of the frame and of its margin, as far as tiles were planned. */
+/* Tiles of the frame and of its margin, as far as the picture goes. */
 static wo_rect tiles_of(const wo_defocus *scene, const wo_frame *frame)
 {
     const wo_rect r = wo_rect_grow(frame->window, WO_HYBRID_MARGIN, WO_HYBRID_MARGIN);
-    return wo_rect_intersect(wo_tiles_of(r), scene->rays->tiles);
+    return wo_tiles_of(wo_rect_intersect(r, scene->extent));
 }
 
 static wo_status create(const wo_defocus *scene, const wo_frame *frame, wo_hybrid *h,
@@ -131,5 +131,8 @@ static wo_status render(const wo_defocus *scene, const wo_frame *frame, wo_repor
     return status;
 }
 
-const wo_renderer wo_render_hybrid = {
-    .key = "hybrid", .label = "Hybrid", .estimates = true, .render = render};
+const wo_renderer wo_render_hybrid = {.key = "hybrid",
+                                      .label = "Hybrid",
+                                      .estimates = true,
+                                      .margin = WO_HYBRID_MARGIN,
+                                      .render = render};

@@ -3,6 +3,7 @@
 #ifndef WO_CORE_EFFECTS_LENS_BLUR_H
 #define WO_CORE_EFFECTS_LENS_BLUR_H
 
+#include "focus/focus_surface.h"
 #include "wideopen/aperture.h"
 #include "wideopen/effect.h"
 #include "wideopen/optics.h"
@@ -14,6 +15,7 @@ typedef enum wo_lens_blur_output {
     WO_OUTPUT_RAYS,
     WO_OUTPUT_ERROR,
     WO_OUTPUT_GUESSED,
+    WO_OUTPUT_FOCUS,
     WO_OUTPUT_SPLIT,
     WO_OUTPUT_COUNT
 } wo_lens_blur_output;
@@ -35,6 +37,18 @@ typedef struct wo_lens_blur_params {
     double f_stop;
     double focus_distance;
     int32_t breathing;
+    int32_t focus_by;
+    int32_t focus_clip;
+    double field_curvature;
+    double protect_near, protect_far;
+    double near_gain, far_gain;
+    int32_t focus_points;
+    double focus_falloff;
+    double focus_fade;
+    double focus_point[WO_FOCUS_POINTS][2];
+    double focus_offset[WO_FOCUS_POINTS];
+    double focus_weight[WO_FOCUS_POINTS];
+    double focus_dof[WO_FOCUS_POINTS];
     int32_t use_depth;
     int32_t depth_mode;
     double depth_scale;
@@ -78,7 +92,7 @@ typedef struct wo_lens_blur_params {
     int32_t output;
 } wo_lens_blur_params;
 
-enum { WO_LENS_BLUR_PARAMS = 50, WO_LENS_BLUR_GROUPS = 6 };
+enum { WO_LENS_BLUR_PARAMS = 60 + 4 * WO_FOCUS_POINTS, WO_LENS_BLUR_GROUPS = 7 };
 typedef enum wo_edge_repair {
     WO_EDGES_AS_THEY_ARE,
     WO_EDGES_OF_COLOUR,
@@ -97,6 +111,7 @@ enum {
     WO_CLIP_SOURCE = 0, /* layer i: colour 2 i, depth 2 i + 1 */
     WO_CLIP_DEPTH = 1,
     WO_CLIP_MASK = 2 * WO_LENS_BLUR_LAYERS,
+    WO_CLIP_FOCUS,
     WO_CLIP_BACKGROUND, /* what Source hides, as a picture of its own: a clean plate */
     WO_CLIP_BACKGROUND_DEPTH,
     WO_LENS_BLUR_CLIPS
@@ -113,9 +128,12 @@ typedef struct wo_lens_blur_setup {
     bool layer_used[WO_LENS_BLUR_LAYERS];
     bool mask_used;
     bool background_used;
-    double radius; /* largest circle of confusion that is drawn, px */
-    double reach;  /* px: no ray of the lens goes farther, aberrations included */
+    bool focus_map; /* the Focus clip says where the focus is */
+    double radius;  /* largest circle of confusion that is drawn, px */
+    double reach;   /* px: no ray of the lens goes farther, aberrations included */
+    double tilt;    /* and so many times as far when it is tilted: 1..2 */
     double v_min, v_max;
+    int32_t margin;  /* px round a window that the method wants tiles for */
     int fill_levels; /* of the continuation of hidden surfaces; 0 = no depth, nothing to continue */
 } wo_lens_blur_setup;
 

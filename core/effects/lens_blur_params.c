@@ -3,15 +3,20 @@
 #include "effects/lens_blur.h"
 
 #include "defocus/renderer.h"
+#include "focus/focus.h"
 #include "optics/lens_choice.h"
 #include "spectrum/bands.h"
 
 #define FIELD(name) offsetof(wo_lens_blur_params, name)
 
 const wo_param_group wo_lens_blur_groups[WO_LENS_BLUR_GROUPS] = {
-    {"camera", "Camera", true},     {"depth", "Depth and layers", true},
-    {"aperture", "Aperture", true}, {"lensModel", "Lens", false},
-    {"quality", "Quality", true},   {"view", "Output", true},
+    {"camera", "Camera", true},
+    {"focusControl", "Focus", false},
+    {"depth", "Depth and layers", true},
+    {"aperture", "Aperture", true},
+    {"lensModel", "Lens", false},
+    {"quality", "Quality", true},
+    {"view", "Output", true},
 };
 
 #define DEPTH_KEY(name, key, label)   key,
@@ -23,16 +28,17 @@ static const char *const channel_labels[] = {"Red or single channel", "Green", "
                                              NULL};
 static const char *const forms[] = {"iris", "star", "heart", NULL};
 static const char *const form_labels[] = {"Iris", "Star", "Heart", NULL};
-static const char *const outputs[] = {"image", "coc",     "depth", "rays",
-                                      "error", "guessed", "split", NULL};
+static const char *const outputs[] = {"image",   "coc",        "depth", "rays", "error",
+                                      "guessed", "focusPlane", "split", NULL};
 static const char *const output_labels[] = {
-    "Image", "Circle of confusion", "Depth", "Rays", "Error", "Guessed", "Split edges", NULL};
+    "Image",   "Circle of confusion", "Depth",       "Rays", "Error",
+    "Guessed", "Focus plane",         "Split edges", NULL};
 static const char *const repairs[] = {"off", "colour", "all", NULL};
 static const char *const repair_labels[] = {"Off", "Antialiased colour",
                                             "Antialiased colour and depth", NULL};
 
-static const char *const methods[] = {"hybrid", "rays", "reference", NULL};
-static const char *const method_labels[] = {"Hybrid", "Rays", "Reference", NULL};
+static const char *const methods[] = {"hybrid", "rays", "filter", "reference", NULL};
+static const char *const method_labels[] = {"Hybrid", "Rays", "Filter", "Reference", NULL};
 static const char *const samplings[] = {"fixed", "adaptive", NULL};
 static const char *const sampling_labels[] = {"Fixed", "Adaptive", NULL};
 
@@ -49,6 +55,7 @@ static const char *const camera_labels[] = {"Parameters",
                                             "Metadata, own focus and f-number",
                                             NULL};
 
+#include "effects/focus_choices.inc.h"
 #include "effects/lens_choices.inc.h"
 
 const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
@@ -137,6 +144,7 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .max = 1,
      .ui_min = 0,
      .ui_max = 1},
+#include "effects/focus_params.inc.h"
     {.key = "useDepth",
      .label = "Use depth",
      .unit = "",
@@ -268,11 +276,17 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .label = "Method",
      .unit = "",
      .group = "quality",
-     .help = "How the blur is made. Rays: lens rays through the layers, the same number for every "
-             "pixel. Reference: the same by brute force, some 25 times slower, for checking.",
+     .help =
+         "How the blur is made. Hybrid: lens rays, and smoothing of what is far out of focus, as "
+         "much "
+         "as its own blur allows: the best picture for the time. Rays: lens rays alone. Filter: "
+         "every pixel gathers what blurs over it, from its neighbours and from as "
+         "many taps as there are samples on each side of the focus; at 64 samples some 4 times as "
+         "fast as rays, good for previews; it keeps two surfaces a pixel, and draws no colour "
+         "fringes. Reference: rays by brute force, some 25 times slower, for checking.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(method),
-     .initial = {WO_METHOD_RAYS},
+     .initial = {WO_METHOD_HYBRID},
      .min = 0,
      .max = WO_METHOD_COUNT - 1,
      .ui_min = 0,
@@ -299,8 +313,9 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .label = "Target error",
      .unit = "",
      .group = "quality",
-     .help = "Adaptive sampling goes on until the estimated error of the displayed picture (black "
-             "0, white 1) is below this. 1/255 = 0.004 is one step of an 8-bit display.",
+     .help = "Adaptive sampling goes on until noise beyond this is not to be expected: until three "
+             "estimated standard errors of the displayed picture (black 0, white 1) are below it. "
+             "1/255 = 0.004 is one step of an 8-bit display.",
      .type = WO_PARAM_DOUBLE,
      .offset = FIELD(target_error),
      .initial = {0.004},
@@ -366,8 +381,9 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .help =
          "The image, or a view of the plan: the radius of the circle of confusion in px "
          "(positive in front of the focus, negative behind), the depth in metres, the lens rays "
-         "of each pixel, its estimated error, how much of its light was guessed, or the pixels "
-         "that edge repair split in two (1) or whose depth alone it mended (0.5).",
+         "of each pixel, its estimated error, how much of its light was guessed, "
+         "what is in front of the focus (blue), in it to half a px (green) and behind it (red), or "
+         "the pixels that edge repair split in two (1) or whose depth alone it mended (0.5).",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(output),
      .initial = {WO_OUTPUT_IMAGE},
@@ -407,6 +423,9 @@ const wo_clip wo_lens_blur_clips[WO_LENS_BLUR_CLIPS] = {
      .optional = true,
      .mask = true,
      .components = WO_COMPONENT_ALPHA | WO_COMPONENT_RGB | WO_COMPONENT_RGBA},
+    DEPTH("Focus", "Focus",
+          "Where the focus is, pixel by pixel, or how large the blur; see Focus clip is. The first "
+          "channel counts."),
     COLOUR("Background", "Background",
            "Clean plate: the picture without what stands in front. It is seen where a blurred "
            "foreground lets through what Source hides, behind all layers, and is no guess.",

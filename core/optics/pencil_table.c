@@ -9,6 +9,7 @@
 
 struct wo_table_pencils {
     wo_lens_table *table;
+    bool borrowed; /* the table */
     wo_table_function *eval;
     wo_table_pencil_options options;
     wo_bands bands;
@@ -224,6 +225,42 @@ static wo_status make_table(const wo_context *context, const wo_lens_model *mode
     return WO_OK;
 }
 
+/* For the points of so many rays as the options say. */
+static wo_status make_room(const wo_context *context, wo_table_pencils *p, wo_error *error)
+{
+    share_rays(p);
+    p->sets = wo_lattice_sets(p->options.count);
+    p->stride = (size_t)p->options.count + WO_LANES;
+    p->points = wo_new(context, error, 3 * p->stride * p->sets, sizeof *p->points);
+    return p->points ? WO_OK : WO_ERR_NOMEM;
+}
+
+wo_status wo_table_pencils_again(const wo_context *context, const wo_table_pencils *first,
+                                 const wo_aperture *aperture, int count, wo_table_pencils **pencils,
+                                 wo_error *error)
+{
+    *pencils = NULL;
+    if (count < 1)
+        return wo_fail(error, WO_ERR_RANGE, "%d samples: at least 1 is needed", count);
+    wo_table_pencils *p = wo_new(context, error, 1, sizeof *p);
+    if (!p)
+        return WO_ERR_NOMEM;
+    *p = *first;
+    p->borrowed = true;
+    p->options.count = count;
+    p->points = NULL;
+    const wo_status status = make_room(context, p, error);
+    if (status != WO_OK) {
+        wo_table_pencils_destroy(context, &p);
+        return status;
+    }
+    wo_aperture_shape shape;
+    wo_aperture_make(aperture, &shape);
+    make_points(p, &shape);
+    *pencils = p;
+    return WO_OK;
+}
+
 wo_status wo_table_pencils_create(const wo_context *context, const wo_lens_model *model,
                                   const wo_table_pencil_options *options,
                                   wo_table_pencils **pencils, wo_table_facts *facts,
@@ -248,13 +285,8 @@ wo_status wo_table_pencils_create(const wo_context *context, const wo_lens_model
         facts->colour_px = colour_px;
     }
     if (status == WO_OK) {
-        const int lines = p->table->lines;
-        share_rays(p);
-        p->uniform &= lines == 1;
-        p->sets = wo_lattice_sets(options->count);
-        p->stride = (size_t)options->count + WO_LANES;
-        p->points = wo_new(context, error, 3 * p->stride * p->sets, sizeof *p->points);
-        status = p->points ? WO_OK : WO_ERR_NOMEM;
+        p->uniform &= p->table->lines == 1;
+        status = make_room(context, p, error);
     }
     if (status != WO_OK) {
         wo_table_pencils_destroy(context, &p);
@@ -280,7 +312,8 @@ wo_status wo_table_pencils_create(const wo_context *context, const wo_lens_model
 void wo_table_pencils_destroy(const wo_context *context, wo_table_pencils **pencils)
 {
     if (*pencils) {
-        wo_lens_table_destroy(context, &(*pencils)->table);
+        if (!(*pencils)->borrowed)
+            wo_lens_table_destroy(context, &(*pencils)->table);
         wo_delete(context, (*pencils)->points);
     }
     wo_delete(context, *pencils);

@@ -51,13 +51,15 @@ typedef struct wo_geometry {
     double render_scale;  /* horizontal; parameters in px are multiplied by it */
     double pixel_stretch; /* height of a horizontal pixel's worth in vertical pixels:
                              pixel aspect ratio times vertical over horizontal render scale */
+    double pixel_aspect;  /* pixel aspect ratio: points are in canonical coordinates, which are
+                             px times it, over the render scale */
     bool connected[WO_CLIPS_MAX];
     wo_camera camera; /* that the picture's metadata names; zero where nothing is known */
 } wo_geometry;
 
 #define WO_GEOMETRY_INIT                                                                           \
     {                                                                                              \
-        .render_scale = 1, .pixel_stretch = 1                                                      \
+        .render_scale = 1, .pixel_stretch = 1, .pixel_aspect = 1                                   \
     }
 
 /* State of Source's alpha; outputs are always premultiplied. */

@@ -164,7 +164,7 @@ static void beyond_the_ranges(void **state)
         for (size_t k = 0; k < WO_COUNT(wrong); k++) {
             scene s = start(i);
             char *const field = (char *)&s.params + row->offset;
-            if (row->type == WO_PARAM_DOUBLE) {
+            if (row->type == WO_PARAM_DOUBLE || row->type == WO_PARAM_POINT) {
                 memcpy(field, &wrong[k], sizeof wrong[k]);
             } else {
                 const int32_t outside = (int32_t)(k % 2 ? row->max + 1 : row->min - 1);
