@@ -27,7 +27,9 @@ enum {
     WO_HYBRID_GUESSED,
     WO_HYBRID_NOISE, /* near, far, rest: square of half the difference between the halves of the
                         rays, in the displayed value */
-    WO_HYBRID_PLANES = WO_HYBRID_NOISE + 3
+    WO_HYBRID_JITTER = WO_HYBRID_NOISE + 3, /* the same of near and far together, in square roots of
+                                               light, which do not end at white */
+    WO_HYBRID_PLANES
 };
 
 enum { WO_HYBRID_CELL = 8, WO_HYBRID_TAPS_MAX = 64, WO_HYBRID_KERNELS = 33 };
@@ -53,7 +55,7 @@ void wo_hybrid_kernels(wo_hybrid_kernel kernels[WO_HYBRID_KERNELS]);
 typedef struct wo_hybrid_cell {
     uint8_t near, far; /* kernels */
     float noise[3];    /* means */
-    float own_noise;   /* of this cell alone, all parts */
+    float jitter;      /* of this cell alone: variance that smoothing may take away */
 } wo_hybrid_cell;
 
 typedef struct wo_hybrid {

@@ -92,8 +92,7 @@ void wo_hybrid_choose(wo_hybrid *h, int32_t row)
                 if (a == column && b == row)
                     for (int y = 0; y < WO_HYBRID_CELL; y++)
                         for (int x = 0; x < WO_HYBRID_CELL; x++)
-                            for (int n = 0; n < 3; n++)
-                                own += (double)h->plane[WO_HYBRID_NOISE + n][at + y * h->width + x];
+                            own += (double)h->plane[WO_HYBRID_JITTER][at + y * h->width + x];
             }
         }
         wo_hybrid_cell *const cell = &h->cells[(ptrdiff_t)row * h->columns + column];
@@ -102,7 +101,8 @@ void wo_hybrid_choose(wo_hybrid *h, int32_t row)
                 h->rays[row * wo_rect_width(h->tiles) + column * WO_HYBRID_CELL / WO_TILE_WIDTH];
         cell->near = (uint8_t)wo_hybrid_kernel_for(h, true, rays, sum[0], sum[1]);
         cell->far = (uint8_t)wo_hybrid_kernel_for(h, false, rays, sum[2], sum[3]);
-        cell->own_noise = (float)(own / (WO_HYBRID_CELL * WO_HYBRID_CELL));
+        cell->jitter = (float)(WO_HALVES_TO_ERROR * WO_HALVES_TO_ERROR * own /
+                               (WO_HYBRID_CELL * WO_HYBRID_CELL));
         for (int n = 0; n < 3; n++)
             cell->noise[n] = (float)(sum[4 + n] / (cells * WO_HYBRID_CELL * WO_HYBRID_CELL));
     }
@@ -167,31 +167,90 @@ static void look_around(const wo_hybrid *h, const wo_hybrid_kernel *k, int32_t x
         behind[c] = open > 0 ? behind[c] / open : 0;
 }
 
-/* ... squared, in units of the noise's variance. */
-#define MOVE_LIMIT 9.0f
-
-/* Smoothing may move a pixel as far as noise does, not farther: what is beyond is detail. */
-static void keep_within_noise(const wo_hybrid *h, ptrdiff_t at, float noise, float c[4])
-{
-    float own[4];
-    float moved = 0;
-    for (int k = 0; k < 3; k++) {
-        own[k] = h->plane[WO_HYBRID_NEAR + k][at] + h->plane[WO_HYBRID_FAR + k][at] +
-                 h->plane[WO_HYBRID_REST + k][at];
-        const float d = sqrtf(fminf(fmaxf(c[k], 0), 1)) - sqrtf(fminf(fmaxf(own[k], 0), 1));
-        moved += d * d * (1.0f / 3);
-    }
-    own[3] = 1 - h->plane[WO_HYBRID_LEFT][at];
-    const float most = MOVE_LIMIT * noise;
-    if (moved <= most)
-        return;
-    const float part = sqrtf(most / moved);
-    for (int k = 0; k < 4; k++)
-        c[k] = own[k] + part * (c[k] - own[k]);
-}
-
 /* Light less than this says nothing about what it came from. */
 #define OPEN_MIN 0.02f
+
+/* Colours of one cell. */
+typedef float colours[WO_HYBRID_CELL][WO_HYBRID_CELL][4];
+
+/* The parts as they are. */
+static void add_up(const wo_hybrid *h, int32_t left, int32_t low, colours out)
+{
+    for (int y = 0; y < WO_HYBRID_CELL; y++) {
+        for (int x = 0; x < WO_HYBRID_CELL; x++) {
+            const ptrdiff_t at = (low + y) * h->width + left + x;
+            for (int k = 0; k < 4; k++)
+                out[y][x][k] = h->plane[WO_HYBRID_REST + k][at] + h->plane[WO_HYBRID_FAR + k][at] +
+                               h->plane[WO_HYBRID_NEAR + k][at];
+            if (h->plane[WO_HYBRID_LEFT][at] == 0)
+                out[y][x][3] = 1;
+        }
+    }
+}
+
+/* The parts with near and far smoothed. */
+static void add_up_smooth(const wo_hybrid *h, const wo_hybrid_cell *cell, int32_t left, int32_t low,
+                          colours out)
+{
+    const wo_hybrid_kernel *const near_kernel = &h->kernels[cell->near];
+    block near[4];
+    block far[4];
+    smooth(h, near_kernel, left, low, WO_HYBRID_NEAR, 4, near);
+    if (cell->far > 0)
+        smooth(h, &h->kernels[cell->far], left, low, WO_HYBRID_FAR, 4, far);
+    for (int y = 0; y < WO_HYBRID_CELL; y++) {
+        for (int x = 0; x < WO_HYBRID_CELL; x++) {
+            const ptrdiff_t at = (low + y) * h->width + left + x;
+            float behind[4];
+            for (int k = 0; k < 4; k++) {
+                behind[k] = h->plane[WO_HYBRID_REST + k][at];
+                /* What is far keeps its part of the light and takes its colour from around. */
+                if (cell->far > 0 && k < 3 && far[3][y][x] > OPEN_MIN)
+                    behind[k] += h->plane[WO_HYBRID_FAR + 3][at] * far[k][y][x] / far[3][y][x];
+                else
+                    behind[k] += h->plane[WO_HYBRID_FAR + k][at];
+            }
+            const float open = 1 - h->plane[WO_HYBRID_NEAR + 3][at];
+            const float covered = fminf(fmaxf(near[3][y][x], 0), 1);
+            float scale = 1 - covered;
+            if (open < OPEN_MIN)
+                look_around(h, near_kernel, left + x, low + y, behind);
+            else
+                scale /= open;
+            float *const c = out[y][x];
+            for (int k = 0; k < 4; k++)
+                c[k] = near[k][y][x] + scale * behind[k];
+            if (h->plane[WO_HYBRID_LEFT][at] == 0)
+                c[3] = 1;
+        }
+    }
+}
+
+static float root(float x)
+{
+    return copysignf(sqrtf(fabsf(x)), x);
+}
+
+/* The estimate of noise in one cell may be too small by this. */
+#define JITTER_TRUST 2.5f
+
+/* Smoothing takes noise away, and detail. Their sum is what it moves; the part of it that noise
+   explains is taken (James and Stein 1961). */
+static float part_of_noise(const wo_hybrid_cell *cell, colours own, colours smoothed)
+{
+    float moved = 0;
+    for (int y = 0; y < WO_HYBRID_CELL; y++) {
+        for (int x = 0; x < WO_HYBRID_CELL; x++) {
+            for (int k = 0; k < 3; k++) {
+                const float d = root(own[y][x][k]) - root(smoothed[y][x][k]);
+                moved += d * d;
+            }
+        }
+    }
+    moved *= 1.0f / (3 * WO_HYBRID_CELL * WO_HYBRID_CELL);
+    const float noise = JITTER_TRUST * cell->jitter;
+    return moved <= noise ? 1 : noise / moved;
+}
 
 void wo_hybrid_join(const wo_hybrid *h, int32_t tx, int32_t ty, wo_tile_pixels *pixels,
                     wo_tile_facts *facts)
@@ -203,55 +262,25 @@ void wo_hybrid_join(const wo_hybrid *h, int32_t tx, int32_t ty, wo_tile_pixels *
         const int32_t left = tx * WO_TILE_WIDTH - h->area.x1 + x0;
         const wo_hybrid_cell *const cell =
             &h->cells[(ptrdiff_t)(low / WO_HYBRID_CELL) * h->columns + left / WO_HYBRID_CELL];
-        const wo_hybrid_kernel *const near_kernel = &h->kernels[cell->near];
-        const wo_hybrid_kernel *const far_kernel = &h->kernels[cell->far];
-        block near[4];
-        block far[4];
-        if (cell->near > 0)
-            smooth(h, near_kernel, left, low, WO_HYBRID_NEAR, 4, near);
-        if (cell->far > 0)
-            smooth(h, far_kernel, left, low, WO_HYBRID_FAR, 4, far);
-        const float noise =
-            cell->noise[0] * near_kernel->gain + cell->noise[1] * far_kernel->gain + cell->noise[2];
+        colours own;
+        colours smoothed;
+        add_up(h, left, low, own);
+        float part = 0;
+        if (cell->near > 0 || cell->far > 0) {
+            add_up_smooth(h, cell, left, low, smoothed);
+            part = part_of_noise(cell, own, smoothed);
+        }
+        const float near = 1 - part * (1 - h->kernels[cell->near].gain);
+        const float far = 1 - part * (1 - h->kernels[cell->far].gain);
+        const float noise = cell->noise[0] * near + cell->noise[1] * far + cell->noise[2];
         for (int y = 0; y < WO_HYBRID_CELL; y++) {
             for (int x = 0; x < WO_HYBRID_CELL; x++) {
-                const ptrdiff_t at = (low + y) * h->width + left + x;
-                float n[4];
-                float behind[4];
-                for (int k = 0; k < 4; k++) {
-                    const float own = h->plane[WO_HYBRID_FAR + k][at];
-                    n[k] = h->plane[WO_HYBRID_NEAR + k][at];
-                    behind[k] = h->plane[WO_HYBRID_REST + k][at];
-                    if (cell->far > 0 && k < 3 && far[3][y][x] > OPEN_MIN)
-                        behind[k] += h->plane[WO_HYBRID_FAR + 3][at] * far[k][y][x] / far[3][y][x];
-                    else
-                        behind[k] += own;
-                }
-                float empty = h->plane[WO_HYBRID_LEFT][at];
-                if (cell->near > 0) {
-                    const float open = 1 - n[3];
-                    const float covered = fminf(fmaxf(near[3][y][x], 0), 1);
-                    for (int k = 0; k < 4; k++)
-                        n[k] = near[k][y][x];
-                    if (open < OPEN_MIN) {
-                        look_around(h, near_kernel, left + x, low + y, behind);
-                        for (int k = 0; k < 4; k++)
-                            behind[k] *= 1 - covered;
-                        empty = empty > 0 ? fmaxf(1 - covered - behind[3], 0) : 0;
-                    } else {
-                        const float scale = (1 - covered) / open;
-                        for (int k = 0; k < 4; k++)
-                            behind[k] *= scale;
-                        empty *= scale;
-                    }
-                }
                 float *const c = pixels->c[y][x0 + x];
-                for (int k = 0; k < 3; k++)
-                    c[k] = n[k] + behind[k];
-                c[3] = 1 - empty;
-                if (cell->near > 0 || cell->far > 0)
-                    keep_within_noise(h, at, cell->own_noise, c);
-                pixels->guessed[y][x0 + x] = h->plane[WO_HYBRID_GUESSED][at];
+                for (int k = 0; k < 4; k++)
+                    c[k] = part > 0 ? own[y][x][k] + part * (smoothed[y][x][k] - own[y][x][k])
+                                    : own[y][x][k];
+                pixels->guessed[y][x0 + x] =
+                    h->plane[WO_HYBRID_GUESSED][(low + y) * h->width + left + x];
                 facts->error[y][x0 + x] = (float)WO_HALVES_TO_ERROR * sqrtf(noise);
                 facts->rays[y][x0 + x] = h->rays[tile];
             }

@@ -6,6 +6,9 @@
 #include <math.h>
 #include <string.h>
 
+/* Near, far, rest, jitter. */
+enum { NOISES = WO_HYBRID_PLANES - WO_HYBRID_NOISE };
+
 /* One pixel of sums, each part divided by the light of its colour. */
 typedef struct split {
     float c[4];
@@ -60,7 +63,7 @@ static bool split_pixel(const wo_tile_work *work, const wo_march_sums *sums, int
 
 /* Squares of the noise of the parts, from two halves of the rays. Coverage and colour of a part
    err together: what counts is the part against that which fills the light left by it. */
-static void noise_of(const split *all, const split *a, const split *b, float noise[3])
+static void noise_of(const split *all, const split *a, const split *b, float noise[NOISES])
 {
     const float open = 1 - all->near[3];
     const float far_a = all->far[3];
@@ -71,6 +74,8 @@ static void noise_of(const split *all, const split *a, const split *b, float noi
         const float far = a->far[k] - b->far[k] - beyond * (a->far[3] - b->far[3]);
         const float rest = a->c[k] - b->c[k] - near - far;
         const float d[3] = {near, far, rest};
+        const float root = 0.25f * (near + far) / sqrtf(fmaxf(fabsf(all->c[k]), 1e-4f));
+        noise[3] += root * root * (1.0f / 3);
         const float slope = wo_shown(a->c[k], b->c[k]);
         for (int n = 0; n < 3; n++) {
             const float e = 0.5f * slope * d[n];
@@ -79,7 +84,8 @@ static void noise_of(const split *all, const split *a, const split *b, float noi
     }
 }
 
-static void put(wo_hybrid *h, ptrdiff_t at, const split *s, float guessed, const float noise[3])
+static void put(wo_hybrid *h, ptrdiff_t at, const split *s, float guessed,
+                const float noise[NOISES])
 {
     for (int k = 0; k < WO_PART_SUMS; k++) {
         h->plane[WO_HYBRID_NEAR + k][at] = s->near[k];
@@ -89,19 +95,19 @@ static void put(wo_hybrid *h, ptrdiff_t at, const split *s, float guessed, const
         h->plane[WO_HYBRID_REST + k][at] = s->c[k] - s->near[k] - s->far[k];
     h->plane[WO_HYBRID_LEFT][at] = 1 - s->c[3];
     h->plane[WO_HYBRID_GUESSED][at] = guessed;
-    for (int n = 0; n < 3; n++)
+    for (int n = 0; n < NOISES; n++)
         h->plane[WO_HYBRID_NOISE + n][at] = noise[n];
 }
 
 /* The parts of a pixel, and what its halves say of their noise. */
 static void look_at(const wo_tile_work *work, const wo_tile_sums *sums, int32_t row, int run_index,
-                    int i, split *all, float noise[3])
+                    int i, split *all, float noise[NOISES])
 {
     const wo_march_sums *const halves = sums->halves[row][run_index];
     wo_march_sums both = halves[0];
     wo_march_add(&both, &halves[1]);
     split half[2];
-    noise[0] = noise[1] = noise[2] = 0;
+    memset(noise, 0, NOISES * sizeof *noise);
     if (split_pixel(work, &both, row, run_index, i, all) && sums->rays > 1 &&
         split_pixel(work, &halves[0], row, run_index, i, &half[0]) &&
         split_pixel(work, &halves[1], row, run_index, i, &half[1]))
@@ -120,7 +126,7 @@ static double error_of(void *user, const wo_tile_work *work, const wo_tile_sums 
         for (int32_t row = 0; row < WO_TILE_HEIGHT; row++) {
             for (int x = x0; x < x0 + WO_HYBRID_CELL; x++) {
                 split s;
-                float one[3];
+                float one[NOISES];
                 look_at(work, sums, row, x % WO_PHASES, x / WO_PHASES, &s, one);
                 for (int n = 0; n < 3; n++)
                     noise[n] += (double)one[n];
@@ -164,7 +170,7 @@ bool wo_hybrid_trace(wo_hybrid *h, int32_t tx, int32_t ty, wo_report *part)
             const int i = x / WO_PHASES;
             const wo_march_sums *const halves = sums.halves[row][run_index];
             split all;
-            float noise[3];
+            float noise[NOISES];
             look_at(&work, &sums, row, run_index, i, &all, noise);
             put(h, origin + row * h->width + x, &all,
                 (halves[0].guessed[i] + halves[1].guessed[i]) / (float)sums.scale, noise);

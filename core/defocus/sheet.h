@@ -72,11 +72,12 @@ double wo_read_vergence(const wo_sheet_source *source, int32_t x, int32_t y, boo
    mixes both and belongs to neither, gets the vergence of the one that has the larger part in it.
    The surfaces are the nearest pixels on either side, at most 4 px away, from where depth goes on
    flat or turns round: slopes and blocks of 2 x 2 px of one depth stay as they are; of a ball,
-   the last px before its outline may go flat. Depth mixes in
-   the unit it is given in, whatever that is, also with a background at 1e10. Only a visible
-   difference of blur counts (px_per_dioptre). source->depth must be connected. mix, as large as the
-   sheet, becomes the part of the nearer surface in each repaired pixel's depth and NaN elsewhere;
-   *repaired is added to, for pixels of counted. */
+   the last px before its outline may go flat. Beside the border of the picture, where the other
+   side of a step may be outside, steep steps stay, too. Depth mixes in the unit it is given in,
+   whatever that is, also with a background at 1e10. Only a visible difference of blur counts
+   (px_per_dioptre). source->depth must be connected. mix, as large as the sheet, becomes the part
+   of the nearer surface in each repaired pixel's depth and NaN elsewhere; *repaired is added to,
+   for pixels of counted. */
 WO_NODISCARD wo_status wo_sheet_repair_depth(const wo_context *context,
                                              const wo_sheet_source *source, double px_per_dioptre,
                                              wo_rect counted, wo_sheet *sheet, float *mix,

@@ -65,15 +65,22 @@ typedef struct mixed {
     double steepness; /* dioptres for each px between them */
 } mixed;
 
-/* How far depth runs on from (x, y) in the direction (a, b), in the sense of sign; at most RUN. */
-static int run_of(const repair_job *job, int32_t x, int32_t y, int a, int b, int sign)
+static bool inside(const repair_job *job, int32_t x, int32_t y)
+{
+    return x >= 0 && x < job->w && y >= 0 && y < job->h;
+}
+
+/* How far depth runs on from (x, y) in the direction (a, b), in the sense of sign; at most RUN.
+ *open: it may run on farther, or beyond the picture. */
+static int run_of(const repair_job *job, int32_t x, int32_t y, int a, int b, int sign, bool *open)
 {
     const float *at = job->depth + (ptrdiff_t)y * job->w + x;
     const ptrdiff_t next = (ptrdiff_t)b * job->w + a;
     int n = 0;
-    while (n < RUN && x + (n + 1) * a >= 0 && x + (n + 1) * a < job->w && y + (n + 1) * b >= 0 &&
-           y + (n + 1) * b < job->h && (at[(n + 1) * next] - at[n * next]) * (float)sign > 0)
+    while (n < RUN && inside(job, x + (n + 1) * a, y + (n + 1) * b) &&
+           (at[(n + 1) * next] - at[n * next]) * (float)sign > 0)
         n++;
+    *open = n == RUN || !inside(job, x + (n + 1) * a, y + (n + 1) * b);
     return n;
 }
 
@@ -89,11 +96,11 @@ static double difference(const repair_job *job, size_t a, size_t b, const size_t
 }
 
 /* Shortens one end of a run by what is slope of a surface; false when all of it may be. */
-static bool trim(const repair_job *job, ptrdiff_t next, const size_t whole[2], size_t *end,
-                 int *run)
+static bool trim(const repair_job *job, ptrdiff_t next, const size_t whole[2], bool open,
+                 size_t *end, int *run)
 {
     double flat = FLAT;
-    if (*run == RUN) {
+    if (open) {
         const double last = difference(job, *end, *end - (size_t)next, whole);
         if (!(last <= SLOPE))
             return false;
@@ -111,15 +118,17 @@ static bool step_along(const repair_job *job, int32_t x, int32_t y, int a, int b
 {
     const size_t here = (size_t)y * (size_t)job->w + (size_t)x;
     const ptrdiff_t next = (ptrdiff_t)b * job->w + a;
-    int up = run_of(job, x, y, a, b, 1);
+    bool open[2];
+    int up = run_of(job, x, y, a, b, 1, &open[0]);
     const int sign = up > 0 ? 1 : -1;
-    up = up > 0 ? up : run_of(job, x, y, a, b, -1);
-    int down = run_of(job, x, y, -a, -b, -sign);
+    up = up > 0 ? up : run_of(job, x, y, a, b, -1, &open[0]);
+    int down = run_of(job, x, y, -a, -b, -sign, &open[1]);
     if (up == 0 || down == 0)
         return false;
     size_t end[2] = {here + (size_t)(up * next), here - (size_t)(down * next)};
     const size_t whole[2] = {end[0], end[1]};
-    if (!trim(job, next, whole, &end[0], &up) || !trim(job, -next, whole, &end[1], &down))
+    if (!trim(job, next, whole, open[0], &end[0], &up) ||
+        !trim(job, -next, whole, open[1], &end[1], &down))
         return false;
     const bool near = isnan(job->v[end[1]]) || job->v[end[0]] > job->v[end[1]];
     out->near = end[near ? 0 : 1];
@@ -132,8 +141,8 @@ static bool step_along(const repair_job *job, int32_t x, int32_t y, int a, int b
         return false;
     const double far_z = job->depth[out->far];
     out->part = ((double)job->depth[here] - far_z) / ((double)job->depth[out->near] - far_z);
-    const bool open = isnan(job->v[out->far]);
-    const double height = open ? HUGE_VAL : (double)job->v[out->near] - job->v[out->far];
+    const double height =
+        isnan(job->v[out->far]) ? HUGE_VAL : (double)job->v[out->near] - job->v[out->far];
     out->steepness = height / ((up + down) * (a && b ? 1.41421356237309505 : 1));
     return height > job->step;
 }

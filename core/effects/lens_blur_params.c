@@ -37,8 +37,9 @@ static const char *const repairs[] = {"off", "colour", "all", NULL};
 static const char *const repair_labels[] = {"Off", "Antialiased colour",
                                             "Antialiased colour and depth", NULL};
 
-static const char *const methods[] = {"hybrid", "rays", "filter", "reference", NULL};
-static const char *const method_labels[] = {"Hybrid", "Rays", "Filter", "Reference", NULL};
+static const char *const methods[] = {"hybrid", "rays", "filter", "spread", "reference", NULL};
+static const char *const method_labels[] = {"Hybrid", "Rays",      "Filter",
+                                            "Spread", "Reference", NULL};
 static const char *const samplings[] = {"fixed", "adaptive", NULL};
 static const char *const sampling_labels[] = {"Fixed", "Adaptive", NULL};
 
@@ -278,12 +279,11 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .group = "quality",
      .help =
          "How the blur is made. Hybrid: lens rays, and smoothing of what is far out of focus, as "
-         "much "
-         "as its own blur allows: the best picture for the time. Rays: lens rays alone. Filter: "
-         "every pixel gathers what blurs over it, from its neighbours and from as "
-         "many taps as there are samples on each side of the focus; at 64 samples some 4 times as "
-         "fast as rays, good for previews; it keeps two surfaces a pixel, and draws no colour "
-         "fringes. Reference: rays by brute force, some 25 times slower, for checking.",
+         "much as its own blur allows: the best picture for the time. Rays: lens rays alone. "
+         "Filter: every pixel gathers what blurs over it; the fastest, for previews. Spread: "
+         "every pixel's light is spread over its circle of confusion, distance by distance: no "
+         "noise; Samples sets how finely distances are told apart. Reference: rays by brute "
+         "force, some 25 times slower, for checking.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(method),
      .initial = {WO_METHOD_HYBRID},

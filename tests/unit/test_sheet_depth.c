@@ -137,7 +137,9 @@ static void edges_become_hard(void **state)
             for (int32_t i = 0; i < SIDE * SIDE; i++) {
                 const bool near = edge_depth(&e, i % SIDE + 0.5, i / SIDE + 0.5) == e.near;
                 const bool is_near = ((double)sheet.v[i] + 0.4) * 2 > 1 / e.near + 1 / e.far;
-                wrong += near != is_near;
+                const bool border =
+                    i % SIDE < 2 || i % SIDE >= SIDE - 2 || i / SIDE < 2 || i / SIDE >= SIDE - 2;
+                wrong += near != is_near && !border;
             }
             assert_at_most(wrong, SIDE / 5);
             wo_sheet_destroy(&plain, &sheet);
@@ -174,6 +176,14 @@ static void what_is_no_mixture_stays(void **state)
         wo_sheet_destroy(&plain, &sheet);
         picture_free(&depth);
     }
+    /* A steep slope, to the corners of the picture. */
+    depth = picture_make(square, 1);
+    for (int32_t i = 0; i < SIDE * SIDE; i++)
+        depth.data[i] = 1 / (0.95f - 0.015f * (float)(i % SIDE));
+    sheet = repaired(&depth, square, before, &count);
+    assert_int_equal(count, 0);
+    wo_sheet_destroy(&plain, &sheet);
+    picture_free(&depth);
     /* A step that no eye sees. */
     const edge small = {0.4, 0, 4, 4.4, 0};
     depth = depth_image(edge_depth, &small, SOFT, square);
