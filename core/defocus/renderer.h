@@ -51,6 +51,7 @@ typedef struct wo_renderer {
 
 #define WO_RENDERER_LIST(X)                                                                        \
     X(WO_METHOD_RAYS, wo_render_rays)                                                              \
+    X(WO_METHOD_ACCUMULATE, wo_render_accumulate)                                                  \
     X(WO_METHOD_REFERENCE, wo_render_reference)
 
 typedef enum wo_method {

@@ -27,8 +27,8 @@ static const char *const outputs[] = {"image", "coc", "depth", "rays", "error", 
 static const char *const output_labels[] = {
     "Image", "Circle of confusion", "Depth", "Rays", "Error", "Guessed", NULL};
 
-static const char *const methods[] = {"rays", "reference", NULL};
-static const char *const method_labels[] = {"Rays", "Reference", NULL};
+static const char *const methods[] = {"rays", "accumulate", "reference", NULL};
+static const char *const method_labels[] = {"Rays", "Accumulate", "Reference", NULL};
 static const char *const samplings[] = {"fixed", "adaptive", NULL};
 static const char *const sampling_labels[] = {"Fixed", "Adaptive", NULL};
 
@@ -217,7 +217,9 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .unit = "",
      .group = "quality",
      .help = "How the blur is made. Rays: lens rays through the layers, the same number for every "
-             "pixel. Reference: the same by brute force, some 25 times slower, for checking.",
+             "pixel. Accumulate: whole pictures, each seen from one point of the lens, the same points "
+             "for all pixels: fast, and few samples show as ghosts in place of noise. "
+             "Reference: the same by brute force, some 25 times slower, for checking.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(method),
      .initial = {WO_METHOD_RAYS},
