@@ -34,8 +34,8 @@ wo_status wo_accumulate_create(const wo_defocus *scene, wo_accumulate *all, wo_e
                            .kernels = wo_draw_choose(wo_cpu_detect(context->cpu)),
                            .levels = 1,
                            .v_connect = (float)(WO_CONNECT_PX / scene->lens->px_per_dioptre)};
-    wo_status status =
-        wo_pieces_create(context, scene->stack, all->v_connect, &all->pieces[0], error);
+    wo_status status = wo_pieces_create(context, scene->stack, scene->lens, all->v_connect,
+                                        &all->pieces[0], error);
     /* Coarser levels, if any tile wants them. */
     double level = 0;
     for (int32_t ty = rays->tiles.y1; status == WO_OK && ty < rays->tiles.y2; ty++)
@@ -129,6 +129,8 @@ static void forget_thin(const wo_context *context, wo_accumulator *worker)
     wo_delete(context, worker->thin_v);
     wo_delete(context, worker->thin_at);
     wo_delete(context, worker->thin_order);
+    wo_delete(context, worker->thin_hits);
+    worker->thin_hits = NULL;
     worker->thin_v = NULL;
     worker->thin_at = NULL;
     worker->thin_order = NULL;
@@ -170,7 +172,8 @@ static bool make_thin_room(const wo_context *context, wo_accumulator *worker, si
     worker->thin_v = wo_new(context, NULL, room, 3 * sizeof *worker->thin_v);
     worker->thin_at = wo_new(context, NULL, room, 2 * sizeof *worker->thin_at);
     worker->thin_order = wo_new(context, NULL, room, 4 * sizeof *worker->thin_order);
-    if (!worker->thin_v || !worker->thin_at || !worker->thin_order) {
+    worker->thin_hits = wo_new(context, NULL, room, 3 * sizeof *worker->thin_hits);
+    if (!worker->thin_v || !worker->thin_at || !worker->thin_order || !worker->thin_hits) {
         forget_thin(context, worker);
         return false;
     }
@@ -178,7 +181,8 @@ static bool make_thin_room(const wo_context *context, wo_accumulator *worker, si
     return true;
 }
 
-/* Pieces around a tile with thin pixels that may be seen in it: calls for each, in a fixed order. */
+/* Pieces around a tile with thin pixels that may be seen in it: calls for each, in a fixed order.
+ */
 static bool reaches(const wo_accumulate *all, int s, const wo_piece *piece, int32_t column,
                     int32_t row, wo_rect tile)
 {
@@ -230,7 +234,8 @@ static size_t find_thin(const wo_accumulate *all, wo_rect tile, float reach, wo_
     const int32_t grow = (int32_t)ceilf(reach) + DRAW_MARGIN;
     const wo_rect rect = wo_rect_intersect(wo_rect_grow(tile, grow, grow), all->scene->stack->area);
     size_t count = 0;
-    for (int s = 0; s < p->sheets; s++) {
+    /* Last sheets first: where vergences are equal the first sheet is the nearest. */
+    for (int s = p->sheets - 1; s >= 0; s--) {
         for (int32_t j = (rect.y1 - p->y1) / WO_PIECE_HEIGHT;
              j <= (rect.y2 - 1 - p->y1) / WO_PIECE_HEIGHT; j++) {
             for (int32_t i = (rect.x1 - p->x1) / WO_PIECE_WIDTH;
@@ -253,6 +258,15 @@ static size_t find_thin(const wo_accumulate *all, wo_rect tile, float reach, wo_
         }
     }
     return count;
+}
+
+static float drop_at(const wo_thin_at *thin)
+{
+    const float *v = thin->piece->plane + WO_PIECE_V * WO_PIECE_PLANE + thin->at;
+    float drop = 0;
+    for (int n = 0; n < 9; n++)
+        drop = fmaxf(drop, v[0] - v[(n / 3 - 1) * WO_PIECE_ROW + n % 3 - 1]);
+    return drop;
 }
 
 /* The tile's thin pixels, farthest first; false without memory. */
@@ -284,6 +298,7 @@ static bool gather_thin(const wo_accumulate *all, wo_accumulator *worker, wo_rec
         const int32_t piece =
             (int32_t)((one.piece - p->pieces) % ((ptrdiff_t)p->columns * p->rows));
         worker->thin_at[i] = one;
+        worker->thin_at[i].drop = drop_at(&one);
         v[i] = one.piece->plane[WO_PIECE_V * WO_PIECE_PLANE + one.at];
         x[i] = (float)(p->x1 + piece % p->columns * WO_PIECE_WIDTH + one.at % WO_PIECE_ROW - 1 -
                        tile.x1);
@@ -293,7 +308,7 @@ static bool gather_thin(const wo_accumulate *all, wo_accumulator *worker, wo_rec
     size_t spare = count;
     for (; spare % WO_LANES != 0; spare++)
         v[spare] = x[spare] = y[spare] = NAN;
-    *thin = (wo_thin){(int)spare, v, x, y, worker->thin_at};
+    *thin = (wo_thin){(int)spare, v, x, y, worker->thin_at, worker->thin_hits};
     return true;
 }
 
@@ -316,7 +331,9 @@ bool wo_accumulate_begin(const wo_accumulate *all, wo_accumulator *worker, int32
                           .y1 = rect.y1 >> level,
                           .v_low = low,
                           .v_high = high};
-        memcpy(draw->bounds, tile->bounds, sizeof draw->bounds);
+        for (int s = 0; s < all->scene->stack->sheets; s++)
+            draw->bounds[s] =
+                (wo_bounds){wo_piece_vergence(tile->bounds[s].v_min, s), tile->bounds[s].v_max};
         for (int half = 0; half < 2; half++)
             memset(&worker->sums[half][level], 0, sizeof worker->sums[half][level]);
     }

@@ -44,18 +44,19 @@ typedef struct wo_same {
 typedef struct wo_accumulator {
     wo_pencil_room room;
     wo_view view;
-    wo_view_sums part;                  /* of a few views */
-    wo_view_sums sums[2][WO_LEVELS];    /* of two halves of the samples */
+    wo_view_sums part;               /* of a few views */
+    wo_view_sums sums[2][WO_LEVELS]; /* of two halves of the samples */
     uint8_t lost[WO_VIEW_ROWS * WO_VIEW_WIDTH];
-    wo_view_ray *ray;                   /* [count] of the tile */
-    float (*weight)[3];                 /* [count]; see weighted */
+    wo_view_ray *ray;   /* [count] of the tile */
+    float (*weight)[3]; /* [count]; see weighted */
     bool weighted;
-    wo_same *same;                      /* [count] */
-    wo_view_ray *group;                 /* [count] */
-    wo_draw draw[WO_LEVELS];            /* of the tile */
-    float *thin_v;                      /* [3 thin_room] and x, y */
-    wo_thin_at *thin_at;                /* [2 thin_room] sorted, and as found */
-    uint32_t *thin_order;               /* [4 thin_room] */
+    wo_same *same;           /* [count] */
+    wo_view_ray *group;      /* [count] */
+    wo_draw draw[WO_LEVELS]; /* of the tile */
+    float *thin_v;           /* [3 thin_room] and x, y */
+    wo_thin_at *thin_at;     /* [2 thin_room] sorted, and as found */
+    uint32_t *thin_order;    /* [4 thin_room] */
+    wo_thin_hit *thin_hits;  /* [3 thin_room] */
     size_t thin_room;
     int level_used; /* the coarsest of the tile */
     int64_t writes;

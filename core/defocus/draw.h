@@ -40,19 +40,29 @@ typedef struct wo_view {
     float plane[WO_VIEW_PLANES][WO_VIEW_PLANE];
 } wo_view;
 
+/* A thin pixel of a tile. */
+typedef struct wo_thin_at {
+    const wo_piece *piece;
+    float drop; /* dioptres to its farthest neighbour */
+    int16_t at;
+    int16_t guessed;
+} wo_thin_at;
+
+/* Where a thin pixel is met. */
+typedef struct wo_thin_hit {
+    float v, t; /* vergence; px to the exact place along the longer axis */
+    int32_t n, step;
+    int16_t x, y; /* in the view */
+} wo_thin_hit;
+
 /* Thin pixels that a view may show, farthest first; arrays of floats so that vectors can look
    where they land. Their number is a multiple of WO_LANES; spare ones are NaN. */
 typedef struct wo_thin {
     int count;
     const float *v, *x, *y; /* relative to the first pixel of the view */
-    const struct wo_thin_at *at;
+    const wo_thin_at *at;
+    wo_thin_hit *hits; /* room for 3 count */
 } wo_thin;
-
-typedef struct wo_thin_at {
-    const wo_piece *piece;
-    int16_t at;
-    int16_t guessed;
-} wo_thin_at;
 
 /* What may be seen in a view. */
 typedef struct wo_draw {

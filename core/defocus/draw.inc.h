@@ -47,6 +47,12 @@ WO_SIMD void raster_of(const line *l, int i, int *dx, int *dy)
     *dy = l->upright ? i : j;
 }
 
+/* Where a surface that is crossed at step i counts as met: first in the step. */
+WO_SIMD float crossed_at(const line *l, int i)
+{
+    return ((float)i - 0.5f * (float)l->dir - l->am) / l->bm;
+}
+
 /* Dodgson's quadratic interpolation (1997), tx, ty px beside the middle of nine. */
 WO_SIMD void stencil_of(vf tx, vf ty, vf w[9])
 {
@@ -110,11 +116,13 @@ typedef struct drawing {
     int64_t writes;
 } drawing;
 
-/* Colours of sixteen solid pixels at (tx, ty) beside their centres. */
+/* Colours of sixteen solid pixels, mixed with those neighbours of their surface that are covered as
+   they are. */
 WO_SIMD void shade(const wo_piece *piece, int at, float v_connect, const vf w[9], vf c[3])
 {
     const float *const plane = piece->plane;
-    const float *const v = plane + WO_PIECE_SOLID * WO_PIECE_PLANE;
+    const float *const v = plane + WO_PIECE_V * WO_PIECE_PLANE;
+    const float *const alpha = plane + WO_PIECE_ALPHA * WO_PIECE_PLANE;
     const float *const red = plane + WO_PIECE_RED * WO_PIECE_PLANE;
     const vf here = v_load(v + at);
     const vf limit = v_set(v_connect);
@@ -128,7 +136,8 @@ WO_SIMD void shade(const wo_piece *piece, int at, float v_connect, const vf w[9]
         vf part = w[n];
         if (!piece->joined) {
             const vf away = v_abs(v_sub(v_load(v + beside), here));
-            part = v_mask(v_less_equal(away, limit), part);
+            const vm full = v_less_equal(v_set(1), v_load(alpha + beside));
+            part = v_mask(m_and(v_less_equal(away, limit), full), part);
             own = v_add(own, v_sub(w[n], part));
         }
         for (int k = 0; k < 3; k++)
@@ -244,22 +253,27 @@ static void draw_step(drawing *g, const wo_piece *piece, int row, int32_t x, int
     const vf am = v_set(l->am - (float)i);
     const vf bm = v_set(l->bm);
     const vf e = v_mul(dir, v_fma(bm, v, am));
-    const vf e0 = v_fma(dir, v_fma(bm, v_load(all + at - before), am), v_set(1));
+    const vf v0 = v_load(all + at - before);
+    const vf e0 = v_fma(dir, v_fma(bm, v0, am), v_set(1));
     const vm crossed = m_and(m_and(v_less(e, v_set(-0.5f)), v_less(v_set(0.5f), e0)),
                              v_less_equal(v_sub(e0, e), v_set(1 + WO_CONNECT_PX)));
     mask = m_and(mask, m_or(v_less_equal(v_abs(e), v_set(0.5f)), crossed));
     if (!m_any(mask))
         return;
+    const vf cross_t = v_sub(v_div(e0, v_sub(e0, e)), v_set(1));
+    const vf met = v_select(crossed, v_set(crossed_at(l, i)), v);
+    mask = m_and(mask, nearer(view, place, met));
+    if (!m_any(mask))
+        return;
     vf c[3];
     if (i <= WO_SMOOTH_PX && i >= -WO_SMOOTH_PX) {
-        const vf cross_t = v_sub(v_div(e0, v_sub(e0, e)), v_set(1));
         vf w[9];
         stencil_beside(l, i, v_mask(mask, v_mul(dir, v_select(crossed, cross_t, e))), w);
         shade(piece, at, g->d->v_connect, w, c);
     } else {
         plain(piece, at, c);
     }
-    put(view, place, mask, v, c, v_set(guess));
+    put(view, place, mask, met, c, v_set(guess));
     g->writes += WO_LANES;
 }
 
@@ -410,32 +424,25 @@ static void shade_thin(const wo_draw *d, const wo_thin_at *thin, const float w[9
     c[3] = least(most(c[3], 0), 1);
 }
 
-/* A thin pixel at one step, over what is drawn already. x, y: its place, not yet moved. */
-static void draw_thin_at(drawing *g, const wo_thin_at *thin, float v, int x, int y, int i, float e,
-                         float e0)
+/* A thin pixel that is met, over what is drawn already. */
+static void draw_thin(drawing *g, const wo_thin_hit *hit)
 {
     const line *const l = &g->l;
-    wo_view *const view = g->view;
-    int dx;
-    int dy;
-    raster_of(l, i, &dx, &dy);
-    x -= dx;
-    y -= dy;
-    if (x < 0 || x >= view->width || y < 0 || y >= view->height)
-        return;
-    float *const to = view->plane[0] + y * WO_VIEW_ROW + WO_LANES + x;
-    if (!(v > *to))
-        return;
+    const wo_thin_at *const thin = &g->d->thin.at[hit->n];
+    float *const to = g->view->plane[0] + hit->y * WO_VIEW_ROW + WO_LANES + hit->x;
     float c[4];
-    if (i <= WO_SMOOTH_PX && i >= -WO_SMOOTH_PX) {
+    if (hit->step <= WO_SMOOTH_PX && hit->step >= -WO_SMOOTH_PX) {
         float w[9] = {0};
         if (g->count > 1) {
+            int dx;
+            int dy;
+            raster_of(l, hit->step, &dx, &dy);
             mean_stencil(g->rays, g->count, 0.5f * (g->d->v_low + g->d->v_high), dx, dy, w);
         } else {
-            const float t = (float)l->dir * (e < -0.5f ? e0 / (e0 - e) - 1 : e);
+            const float i = (float)hit->step;
             const float across =
-                l->n0 + l->slope * (float)i - (float)across_at(l, i) + l->slope * t;
-            add_stencil(l->upright ? across : t, l->upright ? t : across, w);
+                l->n0 + l->slope * i - (float)across_at(l, hit->step) + l->slope * hit->t;
+            add_stencil(l->upright ? across : hit->t, l->upright ? hit->t : across, w);
         }
         shade_thin(g->d, thin, w, c);
     } else {
@@ -452,29 +459,66 @@ static void draw_thin_at(drawing *g, const wo_thin_at *thin, float v, int x, int
     g->writes++;
 }
 
-static void draw_thin(drawing *g, int n)
+/* Notes a hit unless it is out of view or behind something solid; returns how many. */
+static int note(const drawing *g, int n, float v, int i, float t, wo_thin_hit *hit)
+{
+    const wo_view *const view = g->view;
+    int dx;
+    int dy;
+    raster_of(&g->l, i, &dx, &dy);
+    const int x = (int)g->d->thin.x[n] - dx;
+    const int y = (int)g->d->thin.y[n] - dy;
+    if (x < 0 || x >= view->width || y < 0 || y >= view->height ||
+        !(v > view->plane[WO_VIEW_V][y * WO_VIEW_ROW + WO_LANES + x]))
+        return 0;
+    *hit = (wo_thin_hit){v, (float)g->l.dir * t, n, i, (int16_t)x, (int16_t)y};
+    return 1;
+}
+
+/* Where thin pixel n is crossed, if anywhere; at most two steps. hit: the step that it is hit at.
+ */
+static int note_crossed(const drawing *g, int n, float v, int hit, wo_thin_hit *out)
 {
     const line *const l = &g->l;
-    const wo_thin *const list = &g->d->thin;
-    const wo_thin_at *const thin = &list->at[n];
-    const float v = list->v[n];
-    const int x = (int)list->x[n];
-    const int y = (int)list->y[n];
+    const wo_thin_at *const thin = &g->d->thin.at[n];
     const float *const all = thin->piece->plane + WO_PIECE_V * WO_PIECE_PLANE + thin->at;
-    const int hit = nearest(l->am + l->bm * v);
-    for (int more = 0; more < (g->count > 1 ? 1 : 3); more++) {
+    int count = 0;
+    for (int more = 1; more < 3; more++) {
         const int i = hit + more * l->dir;
         const int back = across_at(l, i) - across_at(l, i - l->dir);
         const int before = l->upright ? l->dir * WO_PIECE_ROW + back : l->dir + back * WO_PIECE_ROW;
         const float e = (float)l->dir * (l->am + l->bm * v - (float)i);
         const float e0 = (float)l->dir * (l->am + l->bm * all[-before] - (float)i) + 1;
-        if (more == 0 || (e < -0.5f && e0 > 0.5f && e0 - e <= 1 + WO_CONNECT_PX))
-            draw_thin_at(g, thin, v, x, y, i, e, e0);
-        else
-            break;
+        if (e < -0.5f && e0 > 0.5f && e0 - e <= 1 + WO_CONNECT_PX)
+            count += note(g, n, crossed_at(l, i), i, e0 / (e0 - e) - 1, out + count);
+    }
+    return count;
+}
+
+/* Does a come before b, farther away? Equals keep their order. */
+WO_SIMD bool farther(const wo_thin_hit *a, const wo_thin_hit *b)
+{
+    return a->v < b->v || (a->v == b->v && a->n < b->n);
+}
+
+static void sort_hits(wo_thin_hit *hit, int count)
+{
+    int gap = 1;
+    while (gap < count / 3)
+        gap = 3 * gap + 1;
+    for (; gap > 0; gap /= 3) {
+        for (int i = gap; i < count; i++) {
+            const wo_thin_hit one = hit[i];
+            int k = i;
+            for (; k >= gap && farther(&one, &hit[k - gap]); k -= gap)
+                hit[k] = hit[k - gap];
+            hit[k] = one;
+        }
     }
 }
 
+/* Finds what is met, hits in the order of the list and crossings apart, and draws both in their
+   order. */
 static void draw_thins(drawing *g)
 {
     const line *const l = &g->l;
@@ -482,20 +526,42 @@ static void draw_thins(drawing *g)
     const vf right = v_set((float)g->view->width + 2.5f);
     const vf top = v_set((float)g->view->height + 2.5f);
     const vf low = v_set(-3.5f);
+    wo_thin_hit *const hits = list->hits;
+    wo_thin_hit *const crossings = hits + list->count;
+    int hit_count = 0;
+    int crossing_count = 0;
     for (int first = 0; first < list->count; first += WO_LANES) {
-        const vf i = rounded(v_fma(v_set(l->bm), v_load(list->v + first), v_set(l->am)));
+        const vf s = v_fma(v_set(l->bm), v_load(list->v + first), v_set(l->am));
+        const vf i = rounded(s);
         const vf j = rounded(v_fma(v_set(l->slope), i, v_set(l->n0)));
         const vf x = v_sub(v_load(list->x + first), l->upright ? j : i);
         const vf y = v_sub(v_load(list->y + first), l->upright ? i : j);
-        const vm seen = m_and(m_and(v_less(low, x), v_less(x, right)),
-                              m_and(v_less(low, y), v_less(y, top)));
+        const vm seen =
+            m_and(m_and(v_less(low, x), v_less(x, right)), m_and(v_less(low, y), v_less(y, top)));
         if (!m_any(seen))
             continue;
         float one[WO_LANES];
+        float step[WO_LANES];
+        float beside[WO_LANES];
         v_store(one, v_mask(seen, v_set(1)));
-        for (int n = 0; n < WO_LANES; n++)
-            if (one[n] != 0)
-                draw_thin(g, first + n);
+        v_store(step, i);
+        v_store(beside, v_mul(v_set((float)l->dir), v_sub(s, i)));
+        for (int lane = 0; lane < WO_LANES; lane++) {
+            if (one[lane] == 0)
+                continue;
+            const int n = first + lane;
+            const float v = list->v[n];
+            const int hit = (int)step[lane];
+            hit_count += note(g, n, v, hit, beside[lane], hits + hit_count);
+            /* A ray comes past the farthest neighbour at least half a step after this. */
+            if (g->count == 1 && beside[lane] + fabsf(l->bm) * list->at[n].drop > 0.49f)
+                crossing_count += note_crossed(g, n, v, hit, crossings + crossing_count);
+        }
+    }
+    sort_hits(crossings, crossing_count);
+    for (int a = 0, b = 0; a < hit_count || b < crossing_count;) {
+        const bool own = b == crossing_count || (a < hit_count && hits[a].v <= crossings[b].v);
+        draw_thin(g, own ? &hits[a++] : &crossings[b++]);
     }
 }
 

@@ -9,6 +9,7 @@ typedef struct cut_job {
     wo_pieces *to;
     const wo_stack *stack;  /* level 0 */
     const wo_pieces *finer; /* the others */
+    const wo_lens *lens;
     float v_connect;
     size_t *first; /* [rows] pieces with surfaces: counted, then summed up */
 } cut_job;
@@ -68,7 +69,7 @@ static float read(const cut_job *job, int s, int32_t x, int32_t y, float c[4])
     const ptrdiff_t at = wo_stack_at(stack, stack->area.x1 + x, stack->area.y1 + y);
     for (int k = 0; c && k < 4; k++)
         c[k] = stack->c[s][k][at];
-    return stack->v[s][at];
+    return wo_piece_vergence(stack->v[s][at], s);
 }
 
 static bool is_used(const cut_job *job, int s, int32_t column, int32_t row)
@@ -116,15 +117,23 @@ static bool is_void(const cut_job *job, int32_t x, int32_t y)
     return true;
 }
 
-/* Coverage 1, and a surface of some sheet at all neighbours? */
-static bool is_solid(const float *plane, int at)
+static bool is_solid(const cut_job *job, const float *plane, int at)
 {
     const float *v = plane + WO_PIECE_V * WO_PIECE_PLANE;
     const float *alpha = plane + WO_PIECE_ALPHA * WO_PIECE_PLANE;
-    for (int i = 0; i < 9; i++)
-        if (isinf(v[at + (i / 3 - 1) * WO_PIECE_ROW + i % 3 - 1]))
+    if (!(alpha[at] >= 1))
+        return false;
+    const wo_lens *lens = job->lens;
+    const double here = (double)v[at];
+    const bool sharp = lens && lens->reach(lens->self, here, here) <= WO_PIECE_SHARP_PX;
+    for (int i = 0; i < 9; i++) {
+        const int beside = at + (i / 3 - 1) * WO_PIECE_ROW + i % 3 - 1;
+        if (isinf(v[beside]))
             return false;
-    return alpha[at] >= 1;
+        if (sharp && fabsf(v[beside] - v[at]) <= job->v_connect && !(alpha[beside] >= 1))
+            return false;
+    }
+    return true;
 }
 
 static void cut_piece(const cut_job *job, int s, int32_t column, int32_t row, float *plane,
@@ -132,11 +141,8 @@ static void cut_piece(const cut_job *job, int s, int32_t column, int32_t row, fl
 {
     float *const v = plane + WO_PIECE_V * WO_PIECE_PLANE;
     float *const solid = plane + WO_PIECE_SOLID * WO_PIECE_PLANE;
-    *piece = (wo_piece){.v_min = INFINITY,
-                        .v_max = -INFINITY,
-                        .low = INFINITY,
-                        .high = -INFINITY,
-                        .plane = plane};
+    *piece = (wo_piece){
+        .v_min = INFINITY, .v_max = -INFINITY, .low = INFINITY, .high = -INFINITY, .plane = plane};
     for (int32_t y = 0; y < WO_PIECE_HEIGHT; y++)
         piece->row[y] = (wo_piece_row){INFINITY, -INFINITY, INFINITY, -INFINITY};
     for (int32_t y = -1; y <= WO_PIECE_HEIGHT; y++) {
@@ -149,8 +155,7 @@ static void cut_piece(const cut_job *job, int s, int32_t column, int32_t row, fl
             v[at] = here;
             for (int k = 0; k < 4; k++)
                 plane[(WO_PIECE_RED + k) * WO_PIECE_PLANE + at] = isnan(here) ? 0 : c[k];
-            /* In the ring, what is beyond it is not known; that it is solid changes little. */
-            solid[at] = isnan(here) || !(c[3] >= 1) ? NAN : here;
+            solid[at] = here;
             if (isnan(here)) {
                 if (!job->finer && is_void(job, from_x, from_y))
                     v[at] = INFINITY;
@@ -169,9 +174,9 @@ static void cut_piece(const cut_job *job, int s, int32_t column, int32_t row, fl
         for (int32_t x = 0; x < WO_PIECE_WIDTH; x++) {
             const int at = wo_piece_at(x, y);
             const bool surface = isfinite(v[at]);
-            if (!surface || !is_solid(plane, at)) {
+            if (!surface || !is_solid(job, plane, at)) {
                 piece->thin = (uint8_t)(piece->thin + surface);
-                piece->whole &= (uint8_t)~(1 << x / WO_CELL);
+                piece->whole &= (uint8_t) ~(1 << x / WO_CELL);
                 solid[at] = NAN;
                 continue;
             }
@@ -183,7 +188,7 @@ static void cut_piece(const cut_job *job, int s, int32_t column, int32_t row, fl
     }
     bool gap = false;
     for (int at = 0; at < WO_PIECE_PLANE; at++)
-        gap |= isnan(solid[at]);
+        gap |= !(plane[WO_PIECE_ALPHA * WO_PIECE_PLANE + at] >= 1);
     piece->joined = !gap && piece->high - piece->low <= job->v_connect;
 }
 
@@ -236,8 +241,8 @@ static wo_status cut(const wo_context *context, cut_job *job, wo_error *error)
     return to->memory || count == 0 ? WO_OK : WO_ERR_NOMEM;
 }
 
-wo_status wo_pieces_create(const wo_context *context, const wo_stack *stack, float v_connect,
-                           wo_pieces *pieces, wo_error *error)
+wo_status wo_pieces_create(const wo_context *context, const wo_stack *stack, const wo_lens *lens,
+                           float v_connect, wo_pieces *pieces, wo_error *error)
 {
     *pieces = (wo_pieces){.x1 = stack->area.x1,
                           .y1 = stack->area.y1,
@@ -246,7 +251,7 @@ wo_status wo_pieces_create(const wo_context *context, const wo_stack *stack, flo
                           .sheets = stack->sheets};
     for (int s = 0; s < stack->sheets; s++)
         pieces->guessed[s] = stack->guessed[s];
-    cut_job job = {.to = pieces, .stack = stack, .v_connect = v_connect};
+    cut_job job = {.to = pieces, .stack = stack, .lens = lens, .v_connect = v_connect};
     const wo_status status = cut(context, &job, error);
     if (status != WO_OK)
         wo_pieces_destroy(context, pieces);

@@ -1,6 +1,6 @@
 # Unit tests of core/optics and core/defocus.
 foreach(name IN ITEMS
-        thin_lens aperture aperture_shapes aperture_kernel depth sheet sheet_edges stack march
+        thin_lens aperture aperture_shapes aperture_kernel depth sheet sheet_edges stack march accumulate
         highlights diagram pencil_map glass prescription prescription_designs prescription_fuzz
         lens_first_order lens_trace lens_seidel lens_table lens_models lens_extremes)
     add_executable(test_${name} ${CMAKE_CURRENT_LIST_DIR}/test_${name}.c)
