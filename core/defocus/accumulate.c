@@ -130,6 +130,8 @@ static void forget_thin(const wo_context *context, wo_accumulator *worker)
     wo_delete(context, worker->thin_at);
     wo_delete(context, worker->thin_order);
     wo_delete(context, worker->thin_hits);
+    wo_delete(context, worker->thin_around);
+    worker->thin_around = NULL;
     worker->thin_hits = NULL;
     worker->thin_v = NULL;
     worker->thin_at = NULL;
@@ -173,7 +175,9 @@ static bool make_thin_room(const wo_context *context, wo_accumulator *worker, si
     worker->thin_at = wo_new(context, NULL, room, 2 * sizeof *worker->thin_at);
     worker->thin_order = wo_new(context, NULL, room, 4 * sizeof *worker->thin_order);
     worker->thin_hits = wo_new(context, NULL, room, 3 * sizeof *worker->thin_hits);
-    if (!worker->thin_v || !worker->thin_at || !worker->thin_order || !worker->thin_hits) {
+    worker->thin_around = wo_new(context, NULL, room, 9 * sizeof *worker->thin_around);
+    if (!worker->thin_v || !worker->thin_at || !worker->thin_order || !worker->thin_hits ||
+        !worker->thin_around) {
         forget_thin(context, worker);
         return false;
     }
@@ -234,8 +238,7 @@ static size_t find_thin(const wo_accumulate *all, wo_rect tile, float reach, wo_
     const int32_t grow = (int32_t)ceilf(reach) + DRAW_MARGIN;
     const wo_rect rect = wo_rect_intersect(wo_rect_grow(tile, grow, grow), all->scene->stack->area);
     size_t count = 0;
-    /* Last sheets first: where vergences are equal the first sheet is the nearest. */
-    for (int s = p->sheets - 1; s >= 0; s--) {
+    for (int s = 0; s < p->sheets; s++) {
         for (int32_t j = (rect.y1 - p->y1) / WO_PIECE_HEIGHT;
              j <= (rect.y2 - 1 - p->y1) / WO_PIECE_HEIGHT; j++) {
             for (int32_t i = (rect.x1 - p->x1) / WO_PIECE_WIDTH;
@@ -269,7 +272,27 @@ static float drop_at(const wo_thin_at *thin)
     return drop;
 }
 
-/* The tile's thin pixels, farthest first; false without memory. */
+/* What a thin pixel shows, and what it is mixed with where its blur is small: neighbours on other
+   surfaces lend its own colour, those where there is nothing lend nothing. */
+static void look_around(const wo_accumulate *all, wo_thin_at *thin, float (*around)[4])
+{
+    const float *const red = thin->piece->plane + WO_PIECE_RED * WO_PIECE_PLANE + thin->at;
+    const float *const v = thin->piece->plane + WO_PIECE_V * WO_PIECE_PLANE + thin->at;
+    for (int k = 0; k < 4; k++)
+        thin->c[k] = red[k * WO_PIECE_PLANE];
+    thin->drop = drop_at(thin);
+    for (int n = 0; n < 9; n++) {
+        const int beside = (n / 3 - 1) * WO_PIECE_ROW + n % 3 - 1;
+        const bool same = fabsf(v[beside] - v[0]) <= all->v_connect;
+        for (int k = 0; k < 4; k++)
+            around[n][k] = same               ? red[k * WO_PIECE_PLANE + beside]
+                           : isinf(v[beside]) ? 0
+                                              : thin->c[k];
+    }
+    thin->around = (const float(*)[4])around;
+}
+
+/* The tile's thin pixels, nearest first; false without memory. */
 static bool gather_thin(const wo_accumulate *all, wo_accumulator *worker, wo_rect tile, float reach,
                         wo_thin *thin)
 {
@@ -290,7 +313,7 @@ static bool gather_thin(const wo_accumulate *all, wo_accumulator *worker, wo_rec
     find_thin(all, tile, reach, found);
     for (size_t i = 0; i < count; i++) {
         order[i] = (uint32_t)i;
-        key[i] = ordered(found[i].piece->plane[WO_PIECE_V * WO_PIECE_PLANE + found[i].at]);
+        key[i] = ~ordered(found[i].piece->plane[WO_PIECE_V * WO_PIECE_PLANE + found[i].at]);
     }
     sort_thin(order, key, count, room);
     for (size_t i = 0; i < count; i++) {
@@ -298,7 +321,7 @@ static bool gather_thin(const wo_accumulate *all, wo_accumulator *worker, wo_rec
         const int32_t piece =
             (int32_t)((one.piece - p->pieces) % ((ptrdiff_t)p->columns * p->rows));
         worker->thin_at[i] = one;
-        worker->thin_at[i].drop = drop_at(&one);
+        look_around(all, &worker->thin_at[i], worker->thin_around + 9 * i);
         v[i] = one.piece->plane[WO_PIECE_V * WO_PIECE_PLANE + one.at];
         x[i] = (float)(p->x1 + piece % p->columns * WO_PIECE_WIDTH + one.at % WO_PIECE_ROW - 1 -
                        tile.x1);

@@ -57,6 +57,7 @@ typedef struct wo_accumulator {
     wo_thin_at *thin_at;     /* [2 thin_room] sorted, and as found */
     uint32_t *thin_order;    /* [4 thin_room] */
     wo_thin_hit *thin_hits;  /* [3 thin_room] */
+    float (*thin_around)[4]; /* [9 thin_room] */
     size_t thin_room;
     int level_used; /* the coarsest of the tile */
     int64_t writes;

@@ -11,8 +11,8 @@
    with the roles of pixel and surface exchanged: a pixel of a surface is drawn where a ray would
    hit it, and into the cracks that a ray would cross.
 
-   Solid pixels are drawn by whole vectors, nearest vergence wins; then thin ones come over them,
-   farthest first. Lens rays that land on the same raster position everywhere are one view, drawn
+   Solid pixels are drawn by whole vectors, nearest vergence wins; then thin ones come before them,
+   nearest first. Lens rays that land on the same raster position everywhere are one view, drawn
    once and counted as often (Jeong, section 3.3). Each of them is then cast into the surfaces of
    that view, less than a pixel beside it (Jeong, section 3.4): it takes the mean colour of the
    neighbours that it passes between. Two cases miss: where the neighbour is another surface, the
@@ -35,18 +35,22 @@ enum {
    and coverage, part of the light that came from invented surfaces. */
 enum { WO_VIEW_V, WO_VIEW_RED, WO_VIEW_ALPHA = WO_VIEW_RED + 3, WO_VIEW_GUESSED, WO_VIEW_PLANES };
 
-typedef struct wo_view {
-    int32_t width, height; /* at most WO_VIEW_WIDTH x WO_VIEW_ROWS */
-    float plane[WO_VIEW_PLANES][WO_VIEW_PLANE];
-} wo_view;
-
 /* A thin pixel of a tile. */
 typedef struct wo_thin_at {
     const wo_piece *piece;
+    const float (*around)[4]; /* [9] what its neighbours and itself, the fifth, lend; NULL = its
+                                 blur is so large that it is not needed */
+    float c[4];
     float drop; /* dioptres to its farthest neighbour */
-    int16_t at;
+    int16_t at; /* in the planes of the piece */
     int16_t guessed;
 } wo_thin_at;
+
+/* What the thin pixels of a view add up to, at one pixel. */
+typedef struct wo_thin_sum {
+    float c[4];
+    float light, guessed; /* light that they let through */
+} wo_thin_sum;
 
 /* Where a thin pixel is met. */
 typedef struct wo_thin_hit {
@@ -55,7 +59,7 @@ typedef struct wo_thin_hit {
     int16_t x, y; /* in the view */
 } wo_thin_hit;
 
-/* Thin pixels that a view may show, farthest first; arrays of floats so that vectors can look
+/* Thin pixels that a view may show, nearest first; arrays of floats so that vectors can look
    where they land. Their number is a multiple of WO_LANES; spare ones are NaN. */
 typedef struct wo_thin {
     int count;
@@ -63,6 +67,12 @@ typedef struct wo_thin {
     const wo_thin_at *at;
     wo_thin_hit *hits; /* room for 3 count */
 } wo_thin;
+
+typedef struct wo_view {
+    int32_t width, height; /* at most WO_VIEW_WIDTH x WO_VIEW_ROWS */
+    float plane[WO_VIEW_PLANES][WO_VIEW_PLANE];
+    wo_thin_sum thin[WO_VIEW_ROWS][WO_VIEW_WIDTH];
+} wo_view;
 
 /* What may be seen in a view. */
 typedef struct wo_draw {

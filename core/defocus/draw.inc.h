@@ -398,39 +398,19 @@ static void draw_sheet(drawing *g, int s)
     }
 }
 
-/* Colour and coverage of a thin pixel: neighbours on other surfaces lend its own, those where there
-   is nothing lend nothing. */
-static void shade_thin(const wo_draw *d, const wo_thin_at *thin, const float w[9], float c[4])
-{
-    const float *const plane = thin->piece->plane;
-    const float *const v = plane + WO_PIECE_V * WO_PIECE_PLANE;
-    const float here = v[thin->at];
-    float own = w[4];
-    float part[9];
-    for (int n = 0; n < 9; n++) {
-        const float there = v[thin->at + (n / 3 - 1) * WO_PIECE_ROW + n % 3 - 1];
-        part[n] = n != 4 && fabsf(there - here) <= d->v_connect ? w[n] : 0;
-        if (n != 4 && part[n] == 0 && !isinf(there))
-            own += w[n];
-    }
-    part[4] = own;
-    for (int k = 0; k < 4; k++) {
-        const float *const from = plane + (WO_PIECE_RED + k) * WO_PIECE_PLANE + thin->at;
-        float sum = 0;
-        for (int n = 0; n < 9; n++)
-            sum += part[n] * from[(n / 3 - 1) * WO_PIECE_ROW + n % 3 - 1];
-        c[k] = sum;
-    }
-    c[3] = least(most(c[3], 0), 1);
-}
+/* Light that nothing is drawn for. */
+#define LIGHT_NONE 1e-5f
 
-/* A thin pixel that is met, over what is drawn already. */
+/* A thin pixel that is met, with the light that those before it let through. */
 static void draw_thin(drawing *g, const wo_thin_hit *hit)
 {
     const line *const l = &g->l;
     const wo_thin_at *const thin = &g->d->thin.at[hit->n];
-    float *const to = g->view->plane[0] + hit->y * WO_VIEW_ROW + WO_LANES + hit->x;
+    wo_thin_sum *const sum = &g->view->thin[hit->y][hit->x];
+    if (sum->light <= LIGHT_NONE)
+        return;
     float c[4];
+    memcpy(c, thin->c, sizeof c);
     if (hit->step <= WO_SMOOTH_PX && hit->step >= -WO_SMOOTH_PX) {
         float w[9] = {0};
         if (g->count > 1) {
@@ -444,35 +424,47 @@ static void draw_thin(drawing *g, const wo_thin_hit *hit)
                 l->n0 + l->slope * i - (float)across_at(l, hit->step) + l->slope * hit->t;
             add_stencil(l->upright ? across : hit->t, l->upright ? hit->t : across, w);
         }
-        shade_thin(g->d, thin, w, c);
-    } else {
         for (int k = 0; k < 4; k++)
-            c[k] = thin->piece->plane[(WO_PIECE_RED + k) * WO_PIECE_PLANE + thin->at];
+            c[k] = w[0] * thin->around[0][k];
+        for (int n = 1; n < 9; n++)
+            for (int k = 0; k < 4; k++)
+                c[k] += w[n] * thin->around[n][k];
+        c[3] = least(most(c[3], 0), 1);
     }
-    const float rest = 1 - c[3];
-    for (int k = 0; k < 4; k++) {
-        float *const sum = to + (WO_VIEW_RED + k) * WO_VIEW_PLANE;
-        *sum = c[k] + rest * *sum;
-    }
-    float *const guessed = to + WO_VIEW_GUESSED * WO_VIEW_PLANE;
-    *guessed = (thin->guessed ? c[3] : 0) + rest * *guessed;
+    for (int k = 0; k < 4; k++)
+        sum->c[k] += sum->light * c[k];
+    if (thin->guessed)
+        sum->guessed += sum->light * c[3];
+    sum->light -= sum->light * c[3];
     g->writes++;
 }
 
-/* Notes a hit unless it is out of view or behind something solid; returns how many. */
-static int note(const drawing *g, int n, float v, int i, float t, wo_thin_hit *hit)
+/* What is solid shows through the light that is left. */
+static void put_thins(wo_view *view)
 {
-    const wo_view *const view = g->view;
-    int dx;
-    int dy;
-    raster_of(&g->l, i, &dx, &dy);
-    const int x = (int)g->d->thin.x[n] - dx;
-    const int y = (int)g->d->thin.y[n] - dy;
-    if (x < 0 || x >= view->width || y < 0 || y >= view->height ||
-        !(v > view->plane[WO_VIEW_V][y * WO_VIEW_ROW + WO_LANES + x]))
-        return 0;
-    *hit = (wo_thin_hit){v, (float)g->l.dir * t, n, i, (int16_t)x, (int16_t)y};
-    return 1;
+    for (int y = 0; y < view->height; y++) {
+        for (int x = 0; x < view->width; x++) {
+            const wo_thin_sum *const sum = &view->thin[y][x];
+            float *const to = view->plane[0] + y * WO_VIEW_ROW + WO_LANES + x;
+            if (sum->light >= 1 && sum->c[0] == 0 && sum->c[1] == 0 && sum->c[2] == 0)
+                continue;
+            for (int k = 0; k < 3; k++) {
+                float *const c = to + (WO_VIEW_RED + k) * WO_VIEW_PLANE;
+                *c = sum->c[k] + sum->light * *c;
+            }
+            float *const alpha = to + WO_VIEW_ALPHA * WO_VIEW_PLANE;
+            *alpha = *alpha >= 1 ? 1 : least(sum->c[3] + sum->light * *alpha, 1);
+            float *const guessed = to + WO_VIEW_GUESSED * WO_VIEW_PLANE;
+            *guessed = sum->guessed + sum->light * *guessed;
+        }
+    }
+}
+
+/* Is there room for light at vergence v of pixel (x, y) of a view? */
+WO_SIMD bool is_open(const wo_view *view, float v, int x, int y)
+{
+    return x >= 0 && x < view->width && y >= 0 && y < view->height &&
+           v > view->plane[WO_VIEW_V][y * WO_VIEW_ROW + WO_LANES + x];
 }
 
 /* Where thin pixel n is crossed, if anywhere; at most two steps. hit: the step that it is hit at.
@@ -480,25 +472,35 @@ static int note(const drawing *g, int n, float v, int i, float t, wo_thin_hit *h
 static int note_crossed(const drawing *g, int n, float v, int hit, wo_thin_hit *out)
 {
     const line *const l = &g->l;
-    const wo_thin_at *const thin = &g->d->thin.at[n];
+    const wo_thin *const list = &g->d->thin;
+    const wo_thin_at *const thin = &list->at[n];
     const float *const all = thin->piece->plane + WO_PIECE_V * WO_PIECE_PLANE + thin->at;
     int count = 0;
     for (int more = 1; more < 3; more++) {
         const int i = hit + more * l->dir;
         const int back = across_at(l, i) - across_at(l, i - l->dir);
-        const int before = l->upright ? l->dir * WO_PIECE_ROW + back : l->dir + back * WO_PIECE_ROW;
+        const int from = l->upright ? l->dir * WO_PIECE_ROW + back : l->dir + back * WO_PIECE_ROW;
         const float e = (float)l->dir * (l->am + l->bm * v - (float)i);
-        const float e0 = (float)l->dir * (l->am + l->bm * all[-before] - (float)i) + 1;
-        if (e < -0.5f && e0 > 0.5f && e0 - e <= 1 + WO_CONNECT_PX)
-            count += note(g, n, crossed_at(l, i), i, e0 / (e0 - e) - 1, out + count);
+        const float e0 = (float)l->dir * (l->am + l->bm * all[-from] - (float)i) + 1;
+        if (!(e < -0.5f && e0 > 0.5f && e0 - e <= 1 + WO_CONNECT_PX))
+            continue;
+        int dx;
+        int dy;
+        raster_of(l, i, &dx, &dy);
+        const int x = (int)list->x[n] - dx;
+        const int y = (int)list->y[n] - dy;
+        const float met = crossed_at(l, i);
+        const float t = (float)l->dir * (e0 / (e0 - e) - 1);
+        if (is_open(g->view, met, x, y))
+            out[count++] = (wo_thin_hit){met, t, n, i, (int16_t)x, (int16_t)y};
     }
     return count;
 }
 
-/* Does a come before b, farther away? Equals keep their order. */
-WO_SIMD bool farther(const wo_thin_hit *a, const wo_thin_hit *b)
+/* Is a met before b? Equals keep their order. */
+WO_SIMD bool before(const wo_thin_hit *a, const wo_thin_hit *b)
 {
-    return a->v < b->v || (a->v == b->v && a->n < b->n);
+    return a->v > b->v || (a->v == b->v && a->n < b->n);
 }
 
 static void sort_hits(wo_thin_hit *hit, int count)
@@ -510,7 +512,7 @@ static void sort_hits(wo_thin_hit *hit, int count)
         for (int i = gap; i < count; i++) {
             const wo_thin_hit one = hit[i];
             int k = i;
-            for (; k >= gap && farther(&one, &hit[k - gap]); k -= gap)
+            for (; k >= gap && before(&one, &hit[k - gap]); k -= gap)
                 hit[k] = hit[k - gap];
             hit[k] = one;
         }
@@ -523,6 +525,11 @@ static void draw_thins(drawing *g)
 {
     const line *const l = &g->l;
     const wo_thin *const list = &g->d->thin;
+    if (list->count == 0)
+        return;
+    for (int y = 0; y < g->view->height; y++)
+        for (int x = 0; x < g->view->width; x++)
+            g->view->thin[y][x] = (wo_thin_sum){{0}, 1, 0};
     const vf right = v_set((float)g->view->width + 2.5f);
     const vf top = v_set((float)g->view->height + 2.5f);
     const vf low = v_set(-3.5f);
@@ -540,29 +547,34 @@ static void draw_thins(drawing *g)
             m_and(m_and(v_less(low, x), v_less(x, right)), m_and(v_less(low, y), v_less(y, top)));
         if (!m_any(seen))
             continue;
-        float one[WO_LANES];
-        float step[WO_LANES];
-        float beside[WO_LANES];
-        v_store(one, v_mask(seen, v_set(1)));
-        v_store(step, i);
-        v_store(beside, v_mul(v_set((float)l->dir), v_sub(s, i)));
+        float to[5][WO_LANES];
+        v_store(to[0], v_mask(seen, v_set(1)));
+        v_store(to[1], i);
+        v_store(to[2], v_sub(s, i));
+        v_store(to[3], x);
+        v_store(to[4], y);
         for (int lane = 0; lane < WO_LANES; lane++) {
-            if (one[lane] == 0)
+            if (to[0][lane] == 0)
                 continue;
             const int n = first + lane;
             const float v = list->v[n];
-            const int hit = (int)step[lane];
-            hit_count += note(g, n, v, hit, beside[lane], hits + hit_count);
+            const float t = to[2][lane];
+            const int step = (int)to[1][lane];
+            const int px = (int)to[3][lane];
+            const int py = (int)to[4][lane];
+            if (is_open(g->view, v, px, py))
+                hits[hit_count++] = (wo_thin_hit){v, t, n, step, (int16_t)px, (int16_t)py};
             /* A ray comes past the farthest neighbour at least half a step after this. */
-            if (g->count == 1 && beside[lane] + fabsf(l->bm) * list->at[n].drop > 0.49f)
-                crossing_count += note_crossed(g, n, v, hit, crossings + crossing_count);
+            if (g->count == 1 && (float)l->dir * t + fabsf(l->bm) * list->at[n].drop > 0.49f)
+                crossing_count += note_crossed(g, n, v, step, crossings + crossing_count);
         }
     }
     sort_hits(crossings, crossing_count);
     for (int a = 0, b = 0; a < hit_count || b < crossing_count;) {
-        const bool own = b == crossing_count || (a < hit_count && hits[a].v <= crossings[b].v);
+        const bool own = b == crossing_count || (a < hit_count && hits[a].v >= crossings[b].v);
         draw_thin(g, own ? &hits[a++] : &crossings[b++]);
     }
+    put_thins(g->view);
 }
 
 static int64_t draw(const wo_draw *d, const wo_view_ray *rays, int count, wo_view *view)

@@ -155,7 +155,7 @@ static void views_agree_with_brute_force(void **state)
             field_finish(&f, samples);
             run(&f, &wo_render_accumulate, &got);
             run(&f, &wo_render_reference, &want);
-            if (different(&got,&want,1e-3) > .004 && sheets > 1) {
+            if (different(&got,&want,1e-3) > .002 && sheets > 1) {
               for (unsigned m=1;m<(1u<<sheets);m++) { if (!(m>>(sheets-1)&1)) continue;
                 field h; field_start(&h, f.k);
                 for (int s=0;s<sheets;s++) if (m>>s&1) { h.sheet[h.sheets++]=f.sheet[s]; }
