@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
-#include "ofx_plugin.h"
+#include "ofx_overlay.h"
 
 static wo_ofx_plugin plugin;
 
@@ -13,6 +13,20 @@ static OfxStatus main_entry(const char *action, const void *handle, OfxPropertyS
                             OfxPropertySetHandle out)
 {
     return wo_ofx_main(&plugin, action, handle, in, out);
+}
+
+static OfxStatus overlay_gl(const char *action, const void *handle, OfxPropertySetHandle in,
+                            OfxPropertySetHandle out)
+{
+    (void)out;
+    return wo_ofx_overlay(&plugin, action, handle, in, true);
+}
+
+static OfxStatus overlay_draw(const char *action, const void *handle, OfxPropertySetHandle in,
+                              OfxPropertySetHandle out)
+{
+    (void)out;
+    return wo_ofx_overlay(&plugin, action, handle, in, false);
 }
 
 static const wo_effect *effect(void)
@@ -30,6 +44,8 @@ static wo_ofx_plugin plugin = {
             .mainEntry = main_entry},
     .group = "WideOpen",
     .effect = effect,
+    .overlay_gl = overlay_gl,
+    .overlay_draw = overlay_draw,
 };
 
 wo_ofx_plugin *const wo_ofx_plugins[] = {&plugin, NULL};

@@ -2,6 +2,8 @@
 /* Copyright the WideOpen authors */
 #include "ofx_describe.h"
 
+#include "ofx_overlay.h"
+
 #include "ofx/ofxColour.h"
 
 #include <math.h>
@@ -82,6 +84,7 @@ OfxStatus wo_ofx_describe(const wo_ofx_plugin *plugin, OfxImageEffectHandle hand
     if (effect->help)
         wo_ofx_set_string(s, set, kOfxPropPluginDescription, 0, effect->help);
     offer_colour_management(s, set);
+    wo_ofx_overlay_describe(plugin, set);
     return kOfxStatOK;
 }
 

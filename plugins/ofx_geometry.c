@@ -107,6 +107,7 @@ void wo_ofx_read_geometry(wo_ofx_action *action)
     geometry->extent = pixels_of(action, region);
     geometry->render_scale = action->scale[0];
     geometry->pixel_stretch = action->aspect * action->scale[1] / action->scale[0];
+    geometry->pixel_aspect = action->aspect;
     for (size_t i = 0; i < action->effect->clip_count; i++)
         geometry->connected[i] = wo_ofx_clip_connected(action, i);
 }

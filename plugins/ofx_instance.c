@@ -2,6 +2,7 @@
 /* Copyright the WideOpen authors */
 #include "ofx_instance.h"
 
+#include "ofx_camera.h"
 #include "ofx_geometry.h"
 #include "ofx_params.h"
 
@@ -81,6 +82,7 @@ wo_status wo_ofx_action_read(wo_ofx_action *action)
     const wo_effect *const effect = action->effect;
 
     wo_ofx_read_geometry(action);
+    wo_ofx_read_camera(action);
     action->params = wo_new(&action->context, &action->error, 1, effect->params_size);
     if (!action->params)
         return action->error.status;

@@ -18,6 +18,10 @@ typedef struct wo_ofx_plugin {
     OfxPlugin ofx;                    /* what the host sees */
     const char *group;                /* menu: "WideOpen" */
     const wo_effect *(*effect)(void); /* constant; NULL makes Load fail */
+
+    /* Overlay over the viewer, drawn with OpenGL and with the draw suite; both NULL, or two more
+       functions of the plugin's own that pass on to wo_ofx_overlay. */
+    OfxPluginEntryPoint *overlay_gl, *overlay_draw;
     const OfxHost *host;
     wo_ofx_suites suites;
 } wo_ofx_plugin;

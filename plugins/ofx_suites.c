@@ -35,6 +35,8 @@ OfxStatus wo_ofx_fetch_suites(const OfxHost *host, wo_ofx_suites *suites)
     suites->message2 = host->fetchSuite(h, kOfxMessageSuite, 2);
     suites->progress = host->fetchSuite(h, kOfxProgressSuite, 1);
     suites->progress2 = host->fetchSuite(h, kOfxProgressSuite, 2);
+    suites->interact = host->fetchSuite(h, kOfxInteractSuite, 1);
+    suites->draw = host->fetchSuite(h, kOfxDrawSuite, 1);
     suites->report = host->fetchSuite(h, kWideOpenReportSuite, 1);
     return kOfxStatOK;
 }

@@ -4,7 +4,9 @@
 #define WO_PLUGINS_OFX_SUITES_H
 
 #include "ofx/ofxCore.h"
+#include "ofx/ofxDrawSuite.h"
 #include "ofx/ofxImageEffect.h"
+#include "ofx/ofxInteract.h"
 #include "ofx/ofxMemory.h"
 #include "ofx/ofxMessage.h"
 #include "ofx/ofxMultiThread.h"
@@ -28,6 +30,8 @@ typedef struct wo_ofx_suites {
     const OfxMessageSuiteV2 *message2;
     const OfxProgressSuiteV1 *progress;
     const OfxProgressSuiteV2 *progress2;
+    const OfxInteractSuiteV1 *interact;
+    const OfxDrawSuiteV1 *draw;
     const WideOpenReportSuiteV1 *report;
 } wo_ofx_suites;
 

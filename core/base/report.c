@@ -66,6 +66,24 @@ void wo_report_leave_out(wo_report *report, const char *what, const char *why, d
     }
 }
 
+static int uses(const wo_report *report)
+{
+    const int count = report->camera_count;
+    return count < 0 ? 0 : count > WO_CAMERA_USES_MAX ? WO_CAMERA_USES_MAX : count;
+}
+
+void wo_report_camera(wo_report *report, const char *key, double value, const char *unit,
+                      const char *name, const char *why)
+{
+    if (!report || uses(report) == WO_CAMERA_USES_MAX)
+        return;
+    wo_camera_use *const use = &report->camera[uses(report)];
+    *use = (wo_camera_use){
+        .key = or_empty(key), .value = value, .unit = or_empty(unit), .why = or_empty(why)};
+    snprintf(use->name, sizeof use->name, "%s", or_empty(name));
+    report->camera_count = uses(report) + 1;
+}
+
 void wo_report_add(wo_report *total, const wo_report *part)
 {
     if (!total || !part)
@@ -95,6 +113,10 @@ void wo_report_add(wo_report *total, const wo_report *part)
     for (int i = 0; i < kept(part); i++) {
         const wo_left_out *const row = &part->left_out[i];
         wo_report_leave_out(total, row->what, row->why, row->amount, row->unit);
+    }
+    if (uses(total) == 0) {
+        memcpy(total->camera, part->camera, sizeof total->camera);
+        total->camera_count = uses(part);
     }
 }
 
@@ -172,6 +194,29 @@ static void put_count(writer *out, const char *key, int64_t value)
     put(out, "\"%s\": %" PRId64 ", ", key, value);
 }
 
+static void put_camera(writer *out, const wo_report *report)
+{
+    put(out, ", \"camera\": [");
+    for (int i = 0; i < uses(report); i++) {
+        const wo_camera_use *const use = &report->camera[i];
+        const bool known = or_empty(use->key)[0] != 0;
+        put(out, "%s{\"name\": ", i ? ", " : "");
+        put_string(out, use->name);
+        if (known) {
+            put(out, ", \"param\": ");
+            put_string(out, use->key);
+            put(out, ", \"value\": ");
+            put_number(out, use->value);
+            put(out, ", \"unit\": ");
+            put_string(out, use->unit);
+        }
+        put(out, ", \"used\": %s, \"why\": ", or_empty(use->why)[0] ? "false" : "true");
+        put_string(out, use->why);
+        put(out, "}");
+    }
+    put(out, "]");
+}
+
 /* Root mean squares; null where nothing was estimated. */
 static void put_errors(writer *out, const wo_report *report)
 {
@@ -237,7 +282,9 @@ int wo_report_json(const wo_report *report, char *buffer, size_t size)
         put_string(&out, row->unit);
         put(&out, "}");
     }
-    put(&out, "]}");
+    put(&out, "]");
+    put_camera(&out, report);
+    put(&out, "}");
 
     /* Half an object is of no use to a parser: what does not fit becomes an empty one. */
     if (size > 0) {

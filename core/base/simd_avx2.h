@@ -51,6 +51,14 @@ WO_SIMD vf v_fma(vf x, vf y, vf z)
 {
     return (vf){_mm256_fmadd_ps(x.a, y.a, z.a), _mm256_fmadd_ps(x.b, y.b, z.b)};
 }
+WO_SIMD vf v_min(vf x, vf y)
+{
+    return WO_PAIR(_mm256_min_ps, x, y);
+}
+WO_SIMD vf v_max(vf x, vf y)
+{
+    return WO_PAIR(_mm256_max_ps, x, y);
+}
 WO_SIMD vm v_less(vf x, vf y)
 {
     return (vm){_mm256_cmp_ps(x.a, y.a, _CMP_LT_OQ), _mm256_cmp_ps(x.b, y.b, _CMP_LT_OQ)};

@@ -108,6 +108,14 @@ WO_SIMD vf v_select(vm m, vf x, vf y)
 {
     return v_of(m_or(m_and(m, m_of(x)), m_except(m_of(y), m)));
 }
+WO_SIMD vf v_min(vf x, vf y)
+{
+    return v_select(v_less(x, y), x, y);
+}
+WO_SIMD vf v_max(vf x, vf y)
+{
+    return v_select(v_less(y, x), x, y);
+}
 WO_SIMD vf v_mask(vm m, vf x)
 {
     return v_of(m_and(m, m_of(x)));

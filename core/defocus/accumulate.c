@@ -148,13 +148,13 @@ void wo_accumulator_destroy(const wo_context *context, wo_accumulator *worker)
     wo_delete(context, worker->same);
 }
 
-static void read_rays(const wo_defocus *scene, wo_accumulator *worker, int32_t tx, int32_t ty)
+static void read_rays(const wo_lens *lens, unsigned set, wo_accumulator *worker, int32_t tx,
+                      int32_t ty)
 {
-    const wo_lens *lens = scene->lens;
     for (int first = 0; first < lens->count; first += WO_PENCIL_PIECE) {
         wo_pencil pencil;
-        lens->pencil(lens->self, (tx + 0.5) * WO_TILE_WIDTH, (ty + 0.5) * WO_TILE_HEIGHT, 0, first,
-                     &worker->room, &pencil);
+        lens->pencil(lens->self, (tx + 0.5) * WO_TILE_WIDTH, (ty + 0.5) * WO_TILE_HEIGHT, set,
+                     first, &worker->room, &pencil);
         worker->weighted = pencil.weight[0] != NULL;
         for (int n = 0; n < pencil.count; n++) {
             worker->ray[first + n] =
@@ -339,7 +339,6 @@ bool wo_accumulate_begin(const wo_accumulate *all, wo_accumulator *worker, int32
 {
     const wo_ray_tile *tile = wo_lens_rays_at(all->scene->rays, tx, ty);
     const wo_rect rect = tile_rect(tx, ty);
-    read_rays(all->scene, worker, tx, ty);
     float low = INFINITY;
     float high = -INFINITY;
     for (int s = 0; s < all->scene->stack->sheets; s++) {
@@ -401,28 +400,28 @@ static int find_lost(const wo_accumulate *all, wo_accumulator *worker, const wo_
 }
 
 /* Draws the view of the group that starts at sample n and adds it to the part. */
-static void add_view(const wo_accumulate *all, wo_accumulator *worker, int level, int n)
+static void add_view(const wo_accumulate *all, wo_accumulator *worker, int level, int n,
+                     double scale)
 {
-    const float scale = 1.0f / (float)(1 << level);
+    const float px = 1.0f / (float)(1 << level);
     int count = 0;
     float weight[3] = {0};
     for (; n >= 0; n = worker->same[n].next) {
         const wo_view_ray *r = &worker->ray[n];
-        worker->group[count++] =
-            (wo_view_ray){r->ax * scale, r->ay * scale, r->bx * scale, r->by * scale};
+        worker->group[count++] = (wo_view_ray){r->ax * px, r->ay * px, r->bx * px, r->by * px};
         for (int k = 0; k < 3; k++)
-            weight[k] += worker->weight[n][k];
+            weight[k] += (float)scale * worker->weight[n][k];
     }
     wo_view *view = &worker->view;
     view->width = WO_VIEW_WIDTH >> level;
     view->height = WO_VIEW_ROWS >> level;
     worker->writes += all->kernels->draw(&worker->draw[level], worker->group, count, view);
-    worker->views++;
     worker->reused += count - 1;
+    worker->spared += (double)count * (WO_TILE_WIDTH * WO_TILE_HEIGHT - view->width * view->height);
     const int lost = level > 0 ? 2 : find_lost(all, worker, &worker->group[0]);
     if (lost == 0)
         memset(worker->lost, 0, sizeof worker->lost);
-    all->kernels->add(view, lost == 2 ? NULL : worker->lost, (float)count,
+    all->kernels->add(view, lost == 2 ? NULL : worker->lost, (float)(scale * count),
                       worker->weighted ? weight : NULL, &worker->part);
 }
 
@@ -467,66 +466,58 @@ static bool join(wo_accumulator *worker, int heads[HASH], int n, int dx, int dy)
     return false;
 }
 
-/* Samples of a batch at one level: those of one raster position become groups, chained by their
-   firsts in *order of appearance*, the others are groups of one. */
-static bool add_level(const wo_accumulate *all, wo_accumulator *worker, int half, int first,
-                      int stride, double detail, int level)
+/* Chooses the samples first..end - 1 that are drawn at a level, and joins those of one raster
+   position: the others' link is -2. */
+static void choose(wo_accumulator *worker, int first, int end, double detail, int level)
 {
-    const int count = all->scene->lens->count;
-    const float scale = 1.0f / (float)(1 << level);
+    const float px = 1.0f / (float)(1 << level);
     int heads[HASH];
     for (int i = 0; i < HASH; i++)
         heads[i] = -1;
-    int chunk = 0;
-    for (int pass = 0; pass < 2; pass++) {
-        for (int n = first, i = 0; n < count; n += stride, i++) {
-            wo_same *same = &worker->same[n];
-            if (pass == 0) {
-                const float *w = worker->weight[n];
-                const wo_view_ray *r = &worker->ray[n];
-                const wo_view_ray ray = {r->ax * scale, r->ay * scale, r->bx * scale,
-                                         r->by * scale};
-                int dx = 0;
-                int dy = 0;
-                *same = (wo_same){0, 0, -1, -2};
-                if (wo_accumulate_level_of(detail, i) != level ||
-                    (w[0] == 0 && w[1] == 0 && w[2] == 0))
+    for (int n = first; n < end; n++) {
+        const float *w = worker->weight[n];
+        const wo_view_ray *r = &worker->ray[n];
+        const wo_view_ray ray = {r->ax * px, r->ay * px, r->bx * px, r->by * px};
+        int dx = 0;
+        int dy = 0;
+        worker->same[n] = (wo_same){0, 0, -1, -2};
+        if (wo_accumulate_level_of(detail, n - first) != level ||
+            (w[0] == 0 && w[1] == 0 && w[2] == 0))
+            continue;
+        if (!lands_once(&worker->draw[level], &ray, &dx, &dy))
+            worker->same[n].link = -1;
+        else if (join(worker, heads, n, dx, dy))
+            worker->same[n].link = -2;
+    }
+}
+
+bool wo_accumulate_add(const wo_accumulate *all, wo_accumulator *worker, const wo_lens *lens,
+                       unsigned pass, int32_t tx, int32_t ty, double scale)
+{
+    const double detail = wo_accumulate_level(all, tx, ty, lens->count);
+    const int last = (int)ceil(detail);
+    read_rays(lens, pass % lens->sets, worker, tx, ty);
+    for (int half = 0; half < 2; half++) {
+        const int first = half == 0 ? 0 : lens->half;
+        const int end = half == 0 ? lens->half : lens->count;
+        for (int level = (int)floor(detail); level <= last; level++) {
+            worker->level_used = level > worker->level_used ? level : worker->level_used;
+            choose(worker, first, end, detail, level);
+            int chunk = 0;
+            for (int n = first; n < end; n++) {
+                if (worker->same[n].link == -2)
                     continue;
-                same->link = -1;
-                if (lands_once(&worker->draw[level], &ray, &dx, &dy) &&
-                    join(worker, heads, n, dx, dy))
-                    same->link = -2;
-                continue;
-            }
-            if (same->link == -2)
-                continue;
-            add_view(all, worker, level, n);
-            if (++chunk % CHUNK == 0) {
+                add_view(all, worker, level, n, scale);
+                if (++chunk % CHUNK != 0)
+                    continue;
                 if (wo_aborted(all->scene->context))
                     return false;
                 add_part(worker, half, level);
             }
+            add_part(worker, half, level);
         }
     }
-    add_part(worker, half, level);
-    return true;
-}
-
-bool wo_accumulate_add(const wo_accumulate *all, wo_accumulator *worker, int32_t tx, int32_t ty,
-                       int half, int first, int stride, double level)
-{
-    (void)tx;
-    (void)ty;
-    const int low = (int)floor(level);
-    for (int l = low; l <= low + 1 && l < all->levels; l++) {
-        if (l > level && level == low)
-            break;
-        worker->level_used = l > worker->level_used ? l : worker->level_used;
-        if (wo_aborted(all->scene->context) ||
-            !add_level(all, worker, half, first, stride, level, l))
-            return false;
-    }
-    return true;
+    return !wo_aborted(all->scene->context);
 }
 
 /* A plane of coarse sums at pixel (x, y) of the tile: linear between pixels, and beyond the last

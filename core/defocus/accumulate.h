@@ -28,8 +28,8 @@ void wo_accumulate_destroy(wo_accumulate *all);
    without steps; continuous in blur and slope. */
 double wo_accumulate_level(const wo_accumulate *all, int32_t tx, int32_t ty, int samples);
 
-/* The level that sample n of a batch is drawn at: floor or ceiling of level, in proportion, so that
-   the samples of both are spread evenly over the lens. */
+/* The level that sample n of a lattice is drawn at: floor or ceiling of level, in proportion, so
+   that the samples of both are spread evenly over the lens. */
 int wo_accumulate_level_of(double level, int n);
 
 /* A sample among those that land on the same raster position. */
@@ -61,8 +61,8 @@ typedef struct wo_accumulator {
     size_t thin_room;
     int level_used; /* the coarsest of the tile */
     int64_t writes;
-    int64_t views, reused; /* views drawn, and those that another stood for */
-    double spared;         /* pixels that coarser levels did not draw */
+    int64_t reused; /* views that another stood for */
+    double spared;  /* pixels that coarser levels did not draw */
     bool no_memory;
 } wo_accumulator;
 
@@ -70,16 +70,17 @@ WO_NODISCARD wo_status wo_accumulator_create(const wo_context *context, int coun
                                              wo_accumulator *worker, wo_error *error);
 void wo_accumulator_destroy(const wo_context *context, wo_accumulator *worker);
 
-/* Makes a worker ready for a tile: rays, thin pixels, sums of 0. False without memory. */
+/* Makes a worker ready for a tile: thin pixels, sums of 0. False without memory. */
 bool wo_accumulate_begin(const wo_accumulate *all, wo_accumulator *worker, int32_t tx, int32_t ty);
 
-/* Adds the samples first, first + stride, .. below the lens's count to sums[half]. False when
-   stopped. */
-bool wo_accumulate_add(const wo_accumulate *all, wo_accumulator *worker, int32_t tx, int32_t ty,
-                       int half, int first, int stride, double level);
+/* Adds the views from all points of a lens (the scene's, with any number of rays up to the worker's
+   count), each counted scale times: the two halves of its rays to sums[0] and [1]. pass: other
+   points. False when stopped. */
+bool wo_accumulate_add(const wo_accumulate *all, wo_accumulator *worker, const wo_lens *lens,
+                       unsigned pass, int32_t tx, int32_t ty, double scale);
 
 /* Mean over one half, or both (half = 2), at pixel (x, y) of the tile: premultiplied colour, and
-   guessed light as a fraction of all. False where nothing is known of a colour (its c is 0). */
+   the sum of guessed light. False where nothing is known of a colour (its c is 0). */
 bool wo_accumulate_mean(const wo_accumulator *worker, int half, int x, int y, float c[4],
                         float *guessed);
 

@@ -143,64 +143,107 @@ static void straight_through(const wo_march_view *view, ptrdiff_t at, float c[4]
     }
 }
 
-static void store(const wo_stack *stack, const wo_march_view *view, const wo_march_sums *sums,
-                  wo_rect rect, int32_t row, int run_index, wo_tile_pixels *pixels)
+void wo_march_add(wo_march_sums *total, const wo_march_sums *part)
 {
     for (int i = 0; i < WO_LANES; i++) {
-        const int x = run_index + WO_PHASES * i;
-        float *c = pixels->c[row][x];
-        const float all = sums->weight[3][i];
-        bool lost = !(all > 0);
-        for (int k = 0; k < 3; k++)
-            lost |= !(sums->weight[k][i] > 0);
-        if (lost)
-            straight_through(view, wo_stack_at(stack, rect.x1 + x, rect.y1 + row), c);
-        for (int k = 0; k < 4; k++)
-            if (sums->weight[k][i] > 0)
-                c[k] = sums->c[k][i] / sums->weight[k][i];
-        c[3] = fminf(c[3], 1);
-        pixels->guessed[row][x] = sums->guessed[i];
+        for (int k = 0; k < 4; k++) {
+            total->c[k][i] += part->c[k][i];
+            total->weight[k][i] += part->weight[k][i];
+        }
+        for (int k = 0; k < WO_PART_SUMS; k++) {
+            total->near[k][i] += part->near[k][i];
+            total->far[k][i] += part->far[k][i];
+        }
+        total->guessed[i] += part->guessed[i];
     }
+    total->steps += part->steps;
 }
 
-/* A tile at work. */
-typedef struct tile_job {
-    const wo_lens_rays *rays;
-    const wo_context *context;
-    wo_march_view view;
-    wo_march_function *kernel;
-    bool sharp;
-    wo_rect rect;
-    wo_pencil_room room;
-} tile_job;
+bool wo_tile_work_pixel(const wo_tile_work *work, const wo_march_sums *sums, int32_t row,
+                        int run_index, int i, float c[4])
+{
+    const int32_t x = work->rect.x1 + run_index + WO_PHASES * i;
+    bool lost = !(sums->weight[3][i] > 0);
+    for (int k = 0; k < 3; k++)
+        lost |= !(sums->weight[k][i] > 0);
+    if (lost) {
+        for (int k = 0; k < 4; k++)
+            c[k] = 0;
+        straight_through(&work->view, wo_stack_at(work->rays->stack, x, work->rect.y1 + row), c);
+    }
+    for (int k = 0; k < 4; k++)
+        if (sums->weight[k][i] > 0)
+            c[k] = sums->c[k][i] / sums->weight[k][i];
+    c[3] = fminf(c[3], 1);
+    return !lost;
+}
 
-/* The whole pencil of a vector, piece by piece; false when stopped. */
-static bool trace(tile_job *job, int32_t row, int run_index, unsigned set, wo_march_sums *sums)
+void wo_tile_work_begin(const wo_lens_rays *rays, const wo_context *context, int32_t tx, int32_t ty,
+                        float v_apart, wo_tile_work *work)
+{
+    work->rays = rays;
+    work->context = context;
+    work->tile = wo_lens_rays_at(rays, tx, ty);
+    work->tx = tx;
+    work->ty = ty;
+    work->rect = tile_rect(tx, ty);
+    work->view = view_of(rays, work->tile);
+    work->view.v_apart = v_apart;
+}
+
+/* Rays from..to of a pencil. */
+static wo_pencil pencil_part(const wo_pencil *pencil, int from, int to)
+{
+    wo_pencil part = {.count = to - from,
+                      .ax = pencil->ax + from,
+                      .ay = pencil->ay + from,
+                      .bx = pencil->bx + from,
+                      .by = pencil->by + from};
+    for (int k = 0; k < 3 && pencil->weight[0]; k++)
+        part.weight[k] = pencil->weight[k] + from;
+    return part;
+}
+
+bool wo_tile_work_vector(wo_tile_work *work, const wo_lens *lens, unsigned pass, int32_t row,
+                         int run_index, wo_march_sums halves[2])
 {
     static const float zero[1] = {0};
-    const wo_lens *lens = job->rays->lens;
-    const wo_rect area = job->rays->stack->area;
-    const int32_t x = job->rect.x1 - area.x1;
-    const int32_t y = job->rect.y1 + row - area.y1;
-    const int count = job->sharp ? 1 : lens->count;
-    *sums = (wo_march_sums){0};
-    for (int first = 0; first < count; first += WO_PENCIL_PIECE) {
-        wo_march_sums part;
-        wo_pencil pencil = {.count = 1, .ax = zero, .ay = zero, .bx = zero, .by = zero};
-        if (!job->sharp)
-            lens->pencil(lens->self, job->rect.x1 + 0.5 * WO_TILE_WIDTH, job->rect.y1 + row + 0.5,
-                         set, first, &job->room, &pencil);
-        if (wo_aborted(job->context))
+    const wo_march_kernels *kernels = work->rays->kernels;
+    const wo_rect area = work->rays->stack->area;
+    const int32_t x = work->rect.x1 - area.x1;
+    const int32_t y = work->rect.y1 + row - area.y1;
+    const bool sharp = work->tile->class == WO_TILE_SHARP;
+    wo_march_function *kernel = work->tile->class == WO_TILE_SINGLE ? kernels->single
+                                : isfinite(work->view.v_apart)      ? kernels->march_apart
+                                                                    : kernels->march;
+    /* Neighbours down the picture use consecutive pencils, whose shifts are spread evenly. */
+    const uint32_t set = wo_hash((uint32_t)work->tx + 0x2545f491u * pass) +
+                         WO_PHASES * (uint32_t)(work->rect.y1 + row) + (uint32_t)run_index;
+    halves[0] = halves[1] = (wo_march_sums){0};
+    if (sharp) {
+        const wo_pencil straight = {.count = 1, .ax = zero, .ay = zero, .bx = zero, .by = zero};
+        kernels->march(&work->view, x, y, run_index, &straight, &halves[1]);
+        return !wo_aborted(work->context);
+    }
+    const int half = lens->half;
+    for (int first = 0; first < lens->count; first += WO_PENCIL_PIECE) {
+        wo_pencil pencil;
+        lens->pencil(lens->self, work->rect.x1 + 0.5 * WO_TILE_WIDTH, work->rect.y1 + row + 0.5,
+                     set % lens->sets, first, &work->room, &pencil);
+        if (wo_aborted(work->context))
             return false;
-        job->kernel(&job->view, x, y, run_index, &pencil, &part);
-        for (int i = 0; i < WO_LANES; i++) {
-            for (int k = 0; k < 4; k++) {
-                sums->c[k][i] += part.c[k][i];
-                sums->weight[k][i] += part.weight[k][i];
-            }
-            sums->guessed[i] += part.guessed[i];
+        const int middle = half - first < 0              ? 0
+                           : half - first > pencil.count ? pencil.count
+                                                         : half - first;
+        for (int h = 0; h < 2; h++) {
+            wo_march_sums part = {0};
+            const wo_pencil rays = h == 0 ? pencil_part(&pencil, 0, middle)
+                                          : pencil_part(&pencil, middle, pencil.count);
+            if (rays.count == 0)
+                continue;
+            kernel(&work->view, x, y, run_index, &rays, &part);
+            wo_march_add(&halves[h], &part);
         }
-        sums->steps += part.steps;
     }
     return true;
 }
@@ -208,33 +251,27 @@ static bool trace(tile_job *job, int32_t row, int run_index, unsigned set, wo_ma
 bool wo_lens_rays_tile(const wo_lens_rays *rays, const wo_context *context, int32_t tx, int32_t ty,
                        wo_tile_pixels *pixels, wo_report *report)
 {
-    const wo_ray_tile *tile = wo_lens_rays_at(rays, tx, ty);
-    const wo_rect rect = tile_rect(tx, ty);
-    const wo_stack *stack = rays->stack;
+    wo_tile_work work;
+    wo_tile_work_begin(rays, context, tx, ty, INFINITY, &work);
     memset(pixels, 0, sizeof *pixels);
-    report->tiles[tile->class]++;
-    if (tile->class == WO_TILE_EMPTY)
+    report->tiles[work.tile->class]++;
+    if (work.tile->class == WO_TILE_EMPTY)
         return true;
-    tile_job job = {.rays = rays,
-                    .context = context,
-                    .view = view_of(rays, tile),
-                    .kernel = tile->class == WO_TILE_SINGLE ? rays->kernels->single
-                                                            : rays->kernels->march,
-                    .sharp = tile->class == WO_TILE_SHARP,
-                    .rect = rect};
-    const int count = job.sharp ? 1 : rays->lens->count;
+    const int count = work.tile->class == WO_TILE_SHARP ? 1 : rays->lens->count;
     for (int32_t row = 0; row < WO_TILE_HEIGHT; row++) {
-        const uint32_t where = (uint32_t)tx * 0x9e3779b1u + (uint32_t)(rect.y1 + row) * 0x85ebca77u;
         for (int run_index = 0; run_index < WO_PHASES; run_index++) {
-            const uint32_t set = wo_hash(where) + 0x3c6ef372u * (uint32_t)run_index;
-            wo_march_sums sums;
-            if (!trace(&job, row, run_index, wo_hash(set) % rays->lens->sets, &sums))
+            wo_march_sums halves[2];
+            if (!wo_tile_work_vector(&work, rays->lens, 0, row, run_index, halves))
                 return false;
-            store(stack, &job.view, &sums, rect, row, run_index, pixels);
-            report->steps += sums.steps;
+            wo_march_sums *const sums = &halves[0];
+            wo_march_add(sums, &halves[1]);
+            report->steps += sums->steps;
             report->rays += (int64_t)count * WO_LANES;
-            for (int i = 0; i < WO_LANES; i++)
-                pixels->guessed[row][run_index + WO_PHASES * i] /= (float)count;
+            for (int i = 0; i < WO_LANES; i++) {
+                const int x = run_index + WO_PHASES * i;
+                wo_tile_work_pixel(&work, sums, row, run_index, i, pixels->c[row][x]);
+                pixels->guessed[row][x] = sums->guessed[i] / (float)count;
+            }
         }
     }
     return true;

@@ -55,4 +55,33 @@ bool wo_lens_rays_tile(const wo_lens_rays *rays, const wo_context *context, int3
 /* Class and bounds of a tile. */
 const wo_ray_tile *wo_lens_rays_at(const wo_lens_rays *rays, int32_t tx, int32_t ty);
 
+/* A tile at work, for methods that want the sums of the rays themselves. Private to one worker. */
+typedef struct wo_tile_work {
+    const wo_lens_rays *rays;
+    const wo_context *context;
+    const wo_ray_tile *tile;
+    int32_t tx, ty;
+    wo_rect rect;
+    wo_march_view view;
+    wo_pencil_room room;
+} wo_tile_work;
+
+/* v_apart: see wo_march_view; INFINITY = nothing is kept apart. */
+void wo_tile_work_begin(const wo_lens_rays *rays, const wo_context *context, int32_t tx, int32_t ty,
+                        float v_apart, wo_tile_work *work);
+
+/* Sums of the two halves of a pencil of the lens (which may have more or fewer rays than
+   rays->lens) for one vector of pixels: rays 0..count/2-1, and the rest. A sharp tile gets one ray,
+   in the second half. pass: other pencils for the same pixels. false when stopped. */
+bool wo_tile_work_vector(wo_tile_work *work, const wo_lens *lens, unsigned pass, int32_t row,
+                         int run_index, wo_march_sums halves[2]);
+
+/* total += part. */
+void wo_march_add(wo_march_sums *total, const wo_march_sums *part);
+
+/* Pixel of lane i of these sums: colour, and true, or false when all rays were lost and the colour
+   is that straight through the pixel. */
+bool wo_tile_work_pixel(const wo_tile_work *work, const wo_march_sums *sums, int32_t row,
+                        int run_index, int i, float c[4]);
+
 #endif

@@ -34,14 +34,22 @@ typedef struct wo_march_view {
     const wo_span *spans[WO_SHEETS_MAX];
     int32_t span_columns;
     float v_connect; /* dioptres: neighbours closer than this are one surface */
+    float v_apart;   /* dioptres, > 0: surfaces nearer than this, or farther than minus this, are
+                        summed apart as well */
 } wo_march_view;
+
+/* Red, green, blue, coverage; coverage over distance from the focus in dioptres: its share in the
+   whole is the harmonic mean of blur. */
+#define WO_PART_SUMS 5
 
 /* Sums over a pencil, for the pixels of a vector. */
 typedef struct wo_march_sums {
-    float c[4][WO_LANES];      /* r g b a, times their weights */
-    float weight[4][WO_LANES]; /* a ray's weight for alpha is the mean of its three */
-    float guessed[WO_LANES];   /* part of the light that came from invented surfaces */
-    int64_t steps;             /* lookups of a sheet, each for one pixel */
+    float c[4][WO_LANES];               /* r g b a, times their weights */
+    float weight[4][WO_LANES];          /* a ray's weight for alpha is the mean of its three */
+    float guessed[WO_LANES];            /* part of the light that came from invented surfaces */
+    float near[WO_PART_SUMS][WO_LANES]; /* the part of c in front of the focus by v_apart ... */
+    float far[WO_PART_SUMS][WO_LANES];  /* ... and behind; only march_apart fills them */
+    int64_t steps;                      /* lookups of a sheet, each for one pixel */
 } wo_march_sums;
 
 /* (x, y): place of the first pixel of a block relative to the stack's area, x a multiple of
@@ -50,7 +58,8 @@ typedef void wo_march_function(const wo_march_view *view, int32_t x, int32_t y, 
                                const wo_pencil *pencil, wo_march_sums *sums);
 
 typedef struct wo_march_kernels {
-    wo_march_function *march;  /* any scene */
+    wo_march_function *march;       /* any scene */
+    wo_march_function *march_apart; /* the same, with the sums of near and far */
     wo_march_function *single; /* one sheet without gaps whose vergences differ by less than a px of
                                   blur: one lookup for each ray */
 } wo_march_kernels;

@@ -107,8 +107,39 @@ typedef struct rays {
     vf guessed;
 } rays;
 
-WO_SIMD void meet(rays *r, vm mask, const vf c[4], int is_guess)
+/* Sums of what is much blurred, over all rays of a pencil. */
+typedef struct parts {
+    vf near[WO_PART_SUMS], far[WO_PART_SUMS];
+    vf v_apart, v_behind; /* dioptres, + and - */
+    vf scale[4];          /* weights of the ray at work */
+} parts;
+
+WO_SIMD void add_part(vf sum[WO_PART_SUMS], const vf scale[4], vm mask, vf light, vf v,
+                      const vf c[4])
 {
+    light = v_mask(mask, light);
+    for (int k = 0; k < 4; k++)
+        sum[k] = v_fma(v_mul(light, scale[k]), c[k], sum[k]);
+    const vf stopped = v_mul(v_mul(light, scale[3]), c[3]);
+    sum[4] = v_add(sum[4], v_mask(mask, v_div(stopped, v_abs(v))));
+}
+
+/* light: what arrives at a surface at vergence v. p: NULL = parts are not wanted. */
+WO_SIMD void keep_apart(parts *p, vm mask, vf light, vf v, const vf c[4])
+{
+    if (!p)
+        return;
+    const vm near = m_and(mask, v_less(p->v_apart, v));
+    const vm far = m_and(mask, v_less(v, p->v_behind));
+    if (m_any(near))
+        add_part(p->near, p->scale, near, light, v, c);
+    if (m_any(far))
+        add_part(p->far, p->scale, far, light, v, c);
+}
+
+WO_SIMD void meet(rays *r, vm mask, vf v, const vf c[4], int is_guess, parts *p)
+{
+    keep_apart(p, mask, r->light, v, c);
     const vf light = v_mask(mask, r->light);
     for (int k = 0; k < 4; k++)
         r->c[k] = v_fma(light, c[k], r->c[k]);
@@ -120,7 +151,7 @@ WO_SIMD void meet(rays *r, vm mask, const vf c[4], int is_guess)
 
 /* Several sheets at one step: nearest first, lane by lane; the first sheet first where they meet.
  */
-static void meet_in_order(rays *r, hit *hits, int count, const bool *guessed)
+static void meet_in_order(rays *r, hit *hits, int count, const bool *guessed, parts *p)
 {
     vf is_guess[WO_SHEETS_MAX];
     const vf nothing = v_set(-INFINITY);
@@ -133,21 +164,22 @@ static void meet_in_order(rays *r, hit *hits, int count, const bool *guessed)
     for (int i = 0; i < count; i++) {
         /* The nearest of the rest moves up past its neighbours: equals keep the order of sheets. */
         for (int j = count - 1; j > i; j--) {
-            hit *const p = &hits[j - 1];
+            hit *const o = &hits[j - 1];
             hit *const q = &hits[j];
-            const vm swap = v_less(p->v, q->v);
-            const vf v = p->v;
+            const vm swap = v_less(o->v, q->v);
+            const vf v = o->v;
             const vf g = is_guess[j - 1];
-            p->v = v_select(swap, q->v, v);
+            o->v = v_select(swap, q->v, v);
             q->v = v_select(swap, v, q->v);
             is_guess[j - 1] = v_select(swap, is_guess[j], g);
             is_guess[j] = v_select(swap, g, is_guess[j]);
             for (int k = 0; k < 4; k++) {
-                const vf c = p->c[k];
-                p->c[k] = v_select(swap, q->c[k], c);
+                const vf c = o->c[k];
+                o->c[k] = v_select(swap, q->c[k], c);
                 q->c[k] = v_select(swap, c, q->c[k]);
             }
         }
+        keep_apart(p, v_less(nothing, hits[i].v), r->light, hits[i].v, hits[i].c);
         const vf stopped = v_mul(r->light, hits[i].c[3]);
         for (int k = 0; k < 4; k++)
             r->c[k] = v_fma(r->light, hits[i].c[k], r->c[k]);
@@ -309,7 +341,7 @@ typedef struct travel {
 
 /* A stretch with one sheet in it: the usual case. */
 WO_SIMD void travel_one(const wo_march_view *view, int32_t x, int32_t y, int run_index,
-                        const way *w, vf fall, const stretch *part, travel *t)
+                        const way *w, vf fall, const stretch *part, travel *t, parts *p)
 {
     const int s = part->sheet[0];
     const float *const plane = view->v[s];
@@ -330,7 +362,7 @@ WO_SIMD void travel_one(const wo_march_view *view, int32_t x, int32_t y, int run
             colour_of(view, s, x, y, run_index, w, i, j, at, &m, true, c);
         else
             colour_of(view, s, x, y, run_index, w, i, j, at, &m, false, c);
-        meet(&t->r, m.mask, c, view->guessed[s]);
+        meet(&t->r, m.mask, m.v, c, view->guessed[s], p);
         t->alive = v_less(v_set(WO_LIGHT_MIN), t->r.light);
         if (!m_any(t->alive))
             break;
@@ -342,7 +374,7 @@ WO_SIMD void travel_one(const wo_march_view *view, int32_t x, int32_t y, int run
 
 /* A stretch with several sheets. */
 WO_SIMD void travel_many(const wo_march_view *view, int32_t x, int32_t y, int run_index,
-                         const way *w, vf fall, const stretch *part, travel *t)
+                         const way *w, vf fall, const stretch *part, travel *t, parts *p)
 {
     for (int step = part->first; step <= part->last; step++) {
         const int i = w->dir * step;
@@ -371,9 +403,9 @@ WO_SIMD void travel_many(const wo_march_view *view, int32_t x, int32_t y, int ru
         if (count == 0)
             continue;
         if (count == 1)
-            meet(&t->r, hits[0].mask, hits[0].c, view->guessed[hits[0].sheet]);
+            meet(&t->r, hits[0].mask, hits[0].v, hits[0].c, view->guessed[hits[0].sheet], p);
         else
-            meet_in_order(&t->r, hits, count, view->guessed);
+            meet_in_order(&t->r, hits, count, view->guessed, p);
         t->alive = v_less(v_set(WO_LIGHT_MIN), t->r.light);
         if (!m_any(t->alive))
             return;
@@ -447,8 +479,38 @@ WO_SIMD void store_sums(const wo_pencil *pencil, const vf total[SUMS], wo_march_
     v_store(sums->guessed, total[GUESSED]);
 }
 
-static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index,
-                  const wo_pencil *pencil, wo_march_sums *sums)
+WO_SIMD void begin_parts(const wo_march_view *view, parts *p)
+{
+    for (int k = 0; k < WO_PART_SUMS; k++)
+        p->near[k] = p->far[k] = v_set(0);
+    for (int k = 0; k < 4; k++)
+        p->scale[k] = v_set(1);
+    p->v_apart = v_set(view->v_apart);
+    p->v_behind = v_set(-view->v_apart);
+}
+
+WO_SIMD void weigh_parts(const wo_pencil *pencil, int n, parts *p)
+{
+    if (!pencil->weight[0])
+        return;
+    float sum = 0;
+    for (int k = 0; k < 3; k++) {
+        p->scale[k] = v_set(pencil->weight[k][n]);
+        sum += pencil->weight[k][n];
+    }
+    p->scale[3] = v_set(sum * (1.0f / 3));
+}
+
+WO_SIMD void store_parts(const parts *p, wo_march_sums *sums)
+{
+    for (int k = 0; k < WO_PART_SUMS; k++) {
+        v_store(sums->near[k], p->near[k]);
+        v_store(sums->far[k], p->far[k]);
+    }
+}
+
+WO_SIMD void march_all(const wo_march_view *view, int32_t x, int32_t y, int run_index,
+                       const wo_pencil *pencil, parts *p, wo_march_sums *sums)
 {
     const vf half = v_set(0.5f);
     const vf one = v_set(1);
@@ -467,6 +529,8 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
         const vf fall = v_set(-w.fall);
         t.r = (rays){one, {zero, zero, zero, zero}, zero};
         t.alive = m_set(-1);
+        if (p)
+            weigh_parts(pencil, n, p);
         for (int s = 0; s < view->sheets; s++)
             t.known[s] = INT_MIN;
         stretch part = {.next = w.first};
@@ -476,9 +540,9 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
             look_ahead(view, x, y, run_index, &w, begin, end, &part);
             catch_up(view, x, y, run_index, &w, fall, &part, &t);
             if (part.count == 1)
-                travel_one(view, x, y, run_index, &w, fall, &part, &t);
+                travel_one(view, x, y, run_index, &w, fall, &part, &t, p);
             else
-                travel_many(view, x, y, run_index, &w, fall, &part, &t);
+                travel_many(view, x, y, run_index, &w, fall, &part, &t, p);
         }
         const vf left = t.r.light;
         vm ends = m_except(m_set(-1), t.alive);
@@ -496,6 +560,21 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
     add_chunk(total, chunk);
     store_sums(pencil, total, sums);
     sums->steps = t.steps * WO_LANES;
+}
+
+static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index,
+                  const wo_pencil *pencil, wo_march_sums *sums)
+{
+    march_all(view, x, y, run_index, pencil, NULL, sums);
+}
+
+static void march_apart(const wo_march_view *view, int32_t x, int32_t y, int run_index,
+                        const wo_pencil *pencil, wo_march_sums *sums)
+{
+    parts p;
+    begin_parts(view, &p);
+    march_all(view, x, y, run_index, pencil, &p, sums);
+    store_parts(&p, sums);
 }
 
 static void single(const wo_march_view *view, int32_t x, int32_t y, int run_index,
@@ -537,4 +616,4 @@ static void single(const wo_march_view *view, int32_t x, int32_t y, int run_inde
     sums->steps = (int64_t)pencil->count * WO_LANES;
 }
 
-const wo_march_kernels WO_MARCH_KERNELS = {march, single};
+const wo_march_kernels WO_MARCH_KERNELS = {march, march_apart, single};

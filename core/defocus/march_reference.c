@@ -38,8 +38,23 @@ static void interpolate(const wo_march_view *view, int s, int32_t x, int32_t y, 
     c[3] = fmin(fmax(c[3], 0), 1);
 }
 
+/* Of one ray. */
+typedef struct ray_sums {
+    double c[4];
+    double weight;
+    double guessed;
+    double near[WO_PART_SUMS], far[WO_PART_SUMS];
+} ray_sums;
+
+static void add_part(double sum[WO_PART_SUMS], double light, double v, const double c[4])
+{
+    for (int k = 0; k < 4; k++)
+        sum[k] += light * c[k];
+    sum[4] += light * c[3] / fabs(v);
+}
+
 static void trace(const wo_march_view *view, int32_t x, int32_t y, const wo_pencil *pencil, int n,
-                  double sum[4], double *weight, double *guessed, int64_t *steps)
+                  ray_sums *out, int64_t *steps)
 {
     const bool upright = fabsf(pencil->by[n]) > fabsf(pencil->bx[n]);
     const double am = (double)(upright ? pencil->ay : pencil->ax)[n];
@@ -97,9 +112,13 @@ static void trace(const wo_march_view *view, int32_t x, int32_t y, const wo_penc
                 for (int k = 0; k < 4; k++)
                     c[k] = (double)view->c[s][k][place_of(view, x, y, dx, dy)];
             }
+            if (hits[h].v > (double)view->v_apart)
+                add_part(out->near, light, hits[h].v, c);
+            if (hits[h].v < -(double)view->v_apart)
+                add_part(out->far, light, hits[h].v, c);
             for (int k = 0; k < 4; k++)
-                sum[k] += light * c[k];
-            *guessed += view->guessed[s] ? light * c[3] : 0;
+                out->c[k] += light * c[k];
+            out->guessed += view->guessed[s] ? light * c[3] : 0;
             light -= light * c[3];
         }
         if (light <= (double)WO_LIGHT_MIN || i == last)
@@ -107,8 +126,8 @@ static void trace(const wo_march_view *view, int32_t x, int32_t y, const wo_penc
     }
     const bool faint = light <= (double)WO_LIGHT_MIN;
     const bool lost = !faint && view->opaque[place_of(view, x, y, dx, dy)] > 0.5f;
-    *weight += faint || lost ? 1 - light : 1;
-    *guessed += lost ? light : 0;
+    out->weight = faint || lost ? 1 - light : 1;
+    out->guessed += lost ? light : 0;
 }
 
 static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index,
@@ -119,28 +138,35 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
         double sum[4] = {0};
         double weight[4] = {0};
         double guessed = 0;
+        double near[WO_PART_SUMS] = {0};
+        double far[WO_PART_SUMS] = {0};
         for (int n = 0; n < pencil->count; n++) {
-            double ray[4] = {0};
-            double ray_weight = 0;
-            double ray_guessed = 0;
+            ray_sums ray = {.weight = 0};
             double w[4] = {1, 1, 1, 1};
             for (int k = 0; k < 3 && pencil->weight[0]; k++)
                 w[k] = (double)pencil->weight[k][n];
             w[3] = (w[0] + w[1] + w[2]) / 3;
-            trace(view, x + run_index + WO_PHASES * lane, y, pencil, n, ray, &ray_weight,
-                  &ray_guessed, &sums->steps);
+            trace(view, x + run_index + WO_PHASES * lane, y, pencil, n, &ray, &sums->steps);
             for (int k = 0; k < 4; k++) {
-                sum[k] += w[k] * ray[k];
-                weight[k] += w[k] * ray_weight;
+                sum[k] += w[k] * ray.c[k];
+                weight[k] += w[k] * ray.weight;
             }
-            guessed += w[3] * ray_guessed;
+            for (int k = 0; k < WO_PART_SUMS; k++) {
+                near[k] += w[k < 3 ? k : 3] * ray.near[k];
+                far[k] += w[k < 3 ? k : 3] * ray.far[k];
+            }
+            guessed += w[3] * ray.guessed;
         }
         for (int k = 0; k < 4; k++) {
             sums->c[k][lane] = (float)sum[k];
             sums->weight[k][lane] = (float)weight[k];
         }
+        for (int k = 0; k < WO_PART_SUMS; k++) {
+            sums->near[k][lane] = (float)near[k];
+            sums->far[k][lane] = (float)far[k];
+        }
         sums->guessed[lane] = (float)guessed;
     }
 }
 
-const wo_march_kernels wo_march_reference = {march, march};
+const wo_march_kernels wo_march_reference = {march, march, march};

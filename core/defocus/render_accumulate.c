@@ -1,57 +1,41 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
 #include "defocus/accumulate.h"
+#include "defocus/adaptive.h"
 
 #include <math.h>
 
-/* Samples of the first batch of adaptive sampling, and of each half of the second estimate. */
-enum { FIRST_BATCH = 16 };
-/* The standard error of the mean of two halves, as a part of half their difference: lattices of
-   samples are better than independent ones. */
-#define HALVES_ERROR 0.85
-/* Errors are means over blocks of so many px: 16 x 8. */
-enum { BLOCK = 16 };
+/* Errors are told by blocks of so many px: 16 x 8. */
+enum { BLOCK = 16, BLOCKS = WO_TILE_WIDTH / BLOCK };
 
 typedef struct accumulate_job {
     wo_accumulate all;
     wo_accumulator *worker; /* one for each */
 } accumulate_job;
 
-/* Estimated squared error of blocks of a tile, displayed. Returns the mean over the tile. */
-static double estimate(const wo_accumulator *worker, double square[WO_TILE_WIDTH / BLOCK])
+/* Mean squares of half the difference of the halves over the blocks of a tile, in the displayed
+   value. Returns the mean over the tile. */
+static double noise_of(const wo_accumulator *worker, double square[BLOCKS])
 {
     double all = 0;
-    for (int b = 0; b < WO_TILE_WIDTH / BLOCK; b++) {
+    for (int b = 0; b < BLOCKS; b++) {
         double sum = 0;
         for (int i = 0; i < BLOCK * WO_TILE_HEIGHT; i++) {
             float c[2][4];
             float guessed;
+            bool known = true;
             for (int half = 0; half < 2; half++)
-                wo_accumulate_mean(worker, half, b * BLOCK + i % BLOCK, i / BLOCK, c[half],
-                                   &guessed);
-            for (int k = 0; k < 3; k++) {
-                const double d =
-                    0.5 * HALVES_ERROR * (double)(wo_display(c[0][k]) - wo_display(c[1][k]));
-                sum += d * d / 3;
+                known &= wo_accumulate_mean(worker, half, b * BLOCK + i % BLOCK, i / BLOCK, c[half],
+                                            &guessed);
+            for (int k = 0; known && k < 3; k++) {
+                const float d = 0.5f * (c[1][k] - c[0][k]) * wo_shown(c[0][k], c[1][k]);
+                sum += (double)(d * d) / 3;
             }
         }
         square[b] = sum / (BLOCK * WO_TILE_HEIGHT);
-        all += square[b] / (WO_TILE_WIDTH / BLOCK);
+        all += square[b] / BLOCKS;
     }
     return all;
-}
-
-/* Moves the second half into the first. */
-static void join_halves(wo_accumulator *worker)
-{
-    for (int level = 0; level <= worker->level_used; level++) {
-        float *const to = worker->sums[0][level].plane[0];
-        float *const from = worker->sums[1][level].plane[0];
-        for (size_t i = 0; i < sizeof worker->sums[0][0] / sizeof *to; i++) {
-            to[i] += from[i];
-            from[i] = 0;
-        }
-    }
 }
 
 /* Colour straight through the pixel, where no ray of some colour saw anything. */
@@ -69,7 +53,7 @@ static void straight_through(const wo_stack *stack, int32_t x, int32_t y, float 
 }
 
 static void store(const wo_defocus *scene, const wo_accumulator *worker, int32_t tx, int32_t ty,
-                  int samples, wo_tile_pixels *pixels)
+                  double light, wo_tile_pixels *pixels)
 {
     for (int32_t y = 0; y < WO_TILE_HEIGHT; y++) {
         for (int32_t x = 0; x < WO_TILE_WIDTH; x++) {
@@ -82,18 +66,46 @@ static void store(const wo_defocus *scene, const wo_accumulator *worker, int32_t
                 for (int k = 0; k < 4; k++)
                     c[k] = c[k] != 0 ? c[k] : through[k];
             }
-            pixels->guessed[y][x] = fminf(guessed / (float)samples, 1);
+            pixels->guessed[y][x] = fminf(guessed / (float)light, 1);
         }
     }
 }
 
-static void tell(wo_tile_facts *facts, float rays, const double square[WO_TILE_WIDTH / BLOCK])
+static void tell(wo_tile_facts *facts, float rays, const double square[BLOCKS])
 {
     for (int32_t y = 0; y < WO_TILE_HEIGHT; y++) {
         for (int32_t x = 0; x < WO_TILE_WIDTH; x++) {
             facts->rays[y][x] = rays;
-            facts->error[y][x] = (float)sqrt(square[x / BLOCK]);
+            facts->error[y][x] = (float)(WO_HALVES_TO_ERROR * sqrt(square[x / BLOCK]));
         }
+    }
+}
+
+/* Views until the error is small enough (adaptive.h); *light: what one sample would sum up to. */
+static bool sample(const wo_accumulate *all, wo_accumulator *worker, int32_t tx, int32_t ty,
+                   int *rays, double *light, double square[BLOCKS])
+{
+    const wo_defocus *scene = all->scene;
+    const wo_quality *quality = &scene->quality;
+    *rays = 0;
+    *light = 0;
+    int level = 0;
+    for (unsigned pass = 0;; pass++) {
+        const wo_lens *lens = quality->adaptive ? &scene->levels[level] : scene->lens;
+        const double scale = quality->adaptive ? pow((double)lens->count / scene->levels[0].count,
+                                                     WO_LATTICE_POWER - 1)
+                                               : 1;
+        if (!wo_accumulate_add(all, worker, lens, pass, tx, ty, scale))
+            return false;
+        *rays += lens->count;
+        *light += scale * lens->count;
+        const double e = WO_ERROR_SIGMAS * WO_HALVES_TO_ERROR * sqrt(noise_of(worker, square));
+        if (!quality->adaptive || e <= quality->target_error)
+            return true;
+        const double too_large = quality->target_error > 0 ? e / quality->target_error : INFINITY;
+        level = wo_next_level(scene, level, *rays, too_large);
+        if (level < 0)
+            return true;
     }
 }
 
@@ -105,48 +117,24 @@ static bool accumulate_tile(void *user, int32_t tx, int32_t ty, unsigned index,
     const wo_defocus *scene = all->scene;
     wo_accumulator *worker = &job->worker[index];
     const wo_tile_class class = wo_lens_rays_at(scene->rays, tx, ty)->class;
-    double square[WO_TILE_WIDTH / BLOCK] = {0};
+    double square[BLOCKS] = {0};
     if (class == WO_TILE_EMPTY || class == WO_TILE_SHARP) {
-        if (!wo_lens_rays_tile(scene->rays, scene->context, tx, ty, pixels, part))
-            return false;
         tell(facts, class == WO_TILE_SHARP ? 1 : 0, square);
-        return true;
+        return wo_lens_rays_tile(scene->rays, scene->context, tx, ty, pixels, part);
     }
-    if (!wo_accumulate_begin(all, worker, tx, ty))
-        return false;
-    /* Every batch is spread evenly over the lens, and the later ones are as large as all before
-       them: two halves. */
-    const int count = scene->lens->count;
-    int stride = 2;
-    while (scene->quality.adaptive && count / (2 * stride) >= FIRST_BATCH)
-        stride *= 2;
-    const double target = scene->quality.target_error * scene->quality.target_error;
+    int rays;
+    double light;
     worker->writes = 0;
-    int samples = 0;
-    for (int step = stride; step > 0; step /= 2) {
-        const int first = step == stride ? 0 : step;
-        const int jump = step == stride ? stride : 2 * step;
-        samples = (count + step - 1) / step;
-        if (first > 0 && step < stride / 2)
-            join_halves(worker);
-        const double level = wo_accumulate_level(all, tx, ty, samples);
-        if (!wo_accumulate_add(all, worker, tx, ty, first > 0, first, jump, level))
-            return false;
-        const double pixels_drawn = level * (count - first) / jump;
-        worker->spared += pixels_drawn > 0 ? pixels_drawn : 0;
-        if (first > 0 && scene->quality.adaptive && estimate(worker, square) <= target)
-            break;
-    }
-    if (!scene->quality.adaptive)
-        estimate(worker, square);
-    if (count == 1)
-        for (int b = 0; b < WO_TILE_WIDTH / BLOCK; b++)
-            square[b] = NAN;
-    store(scene, worker, tx, ty, samples, pixels);
+    if (!wo_accumulate_begin(all, worker, tx, ty) ||
+        !sample(all, worker, tx, ty, &rays, &light, square))
+        return false;
+    for (int b = 0; rays == 1 && b < BLOCKS; b++)
+        square[b] = NAN;
+    store(scene, worker, tx, ty, light, pixels);
     wo_tile_highlights(scene, tx, ty, pixels, part);
-    tell(facts, (float)samples, square);
+    tell(facts, (float)rays, square);
     part->tiles[class]++;
-    part->rays += (int64_t)samples * WO_TILE_WIDTH * WO_TILE_HEIGHT;
+    part->rays += (int64_t)rays * WO_TILE_WIDTH * WO_TILE_HEIGHT;
     part->steps += worker->writes;
     return true;
 }
@@ -159,9 +147,12 @@ static wo_status render(const wo_defocus *scene, const wo_frame *frame, wo_repor
     accumulate_job job = {.worker = wo_new(context, error, workers, sizeof *job.worker)};
     if (!job.worker)
         return WO_ERR_NOMEM;
+    int most = scene->lens->count;
+    for (int i = 0; i < scene->level_count; i++)
+        most = scene->levels[i].count > most ? scene->levels[i].count : most;
     wo_status status = wo_accumulate_create(scene, &job.all, error);
     for (unsigned i = 0; status == WO_OK && i < workers; i++)
-        status = wo_accumulator_create(context, scene->lens->count, &job.worker[i], error);
+        status = wo_accumulator_create(context, most, &job.worker[i], error);
     if (status == WO_OK)
         status = wo_frame_tiles(scene, frame, 0, 1, accumulate_tile, &job, report, error);
     double reused = 0;

@@ -21,9 +21,12 @@ typedef struct wo_quality {
 typedef struct wo_defocus {
     const wo_context *context;
     const wo_stack *stack; /* without the light that the highlights took out of it */
-    const wo_lens *lens;   /* lens->count = the most rays a pixel may get */
+    const wo_lens *lens;   /* with quality.samples rays, or when adaptive the most of one pass */
+    const wo_lens *levels; /* [level_count] the same lens with more and more rays, when adaptive */
+    int level_count;
     const wo_highlights *highlights;
     const wo_lens_rays *rays; /* the class of every tile; renders one with all rays */
+    wo_rect extent;           /* where the picture has pixels */
     wo_quality quality;
 } wo_defocus;
 
@@ -43,6 +46,7 @@ typedef struct wo_renderer {
     const char *key;
     const char *label;
     bool estimates; /* its own error: frame->error is wanted always */
+    int32_t margin; /* px round the window for which scene->rays and the stack must hold tiles */
     /* Fills all of frame. report: rays, steps, tiles and omissions are added to. Takes what memory
        it needs from the context and gives it back; polls the context for an abort. */
     wo_status (*render)(const wo_defocus *scene, const wo_frame *frame, wo_report *report,
@@ -50,7 +54,9 @@ typedef struct wo_renderer {
 } wo_renderer;
 
 #define WO_RENDERER_LIST(X)                                                                        \
+    X(WO_METHOD_HYBRID, wo_render_hybrid)                                                          \
     X(WO_METHOD_RAYS, wo_render_rays)                                                              \
+    X(WO_METHOD_FILTER, wo_render_filter)                                                          \
     X(WO_METHOD_ACCUMULATE, wo_render_accumulate)                                                  \
     X(WO_METHOD_REFERENCE, wo_render_reference)
 

@@ -71,7 +71,7 @@ int wo_read_colour(const wo_image *image, wo_alpha alpha, int32_t x, int32_t y, 
     return sanitised;
 }
 
-static double read_vergence(const wo_sheet_source *source, int32_t x, int32_t y, bool *valid)
+double wo_read_vergence(const wo_sheet_source *source, int32_t x, int32_t y, bool *valid)
 {
     const wo_image *image = source->depth;
     *valid = true;
@@ -110,7 +110,7 @@ static void load_row(void *user, size_t index, unsigned worker)
         const int sanitised = wo_read_colour(source->colour, source->alpha, x, y, c);
         counts->sanitised_colour += counted ? sanitised : 0;
         bool valid;
-        double v = read_vergence(source, x, y, &valid);
+        double v = wo_read_vergence(source, x, y, &valid);
         const bool empty = c[3] == 0 && c[0] == 0 && c[1] == 0 && c[2] == 0;
         if (empty) {
             job->sheet->v[at] = NAN;
@@ -118,7 +118,7 @@ static void load_row(void *user, size_t index, unsigned worker)
         }
         counts->sanitised_depth += counted && !valid;
         job->seen[at] = v > V_NONE;
-        v -= source->v_origin;
+        v = source->focus ? wo_focus_from(source->focus, x, y, v) : v - source->v_origin;
         if (v < source->v_min || v > source->v_max) {
             v = fmin(fmax(v, source->v_min), source->v_max);
             counts->clamped_radius += counted;

@@ -3,6 +3,7 @@
 #ifndef WO_CORE_DEFOCUS_SHEET_H
 #define WO_CORE_DEFOCUS_SHEET_H
 
+#include "focus/focus.h"
 #include "wideopen/context.h"
 #include "wideopen/effect.h"
 #include "wideopen/image.h"
@@ -30,12 +31,13 @@ typedef struct wo_sheet_source {
     int depth_channel;     /* 0..3; the last one there is when the image has fewer */
     wo_alpha alpha;
     wo_depth_reading reading;
-    wo_rect extent;      /* pixels outside it do not exist */
-    wo_rect format;      /* the optical axis goes through its centre */
-    double focal_px;     /* for WO_DEPTH_RAY */
-    double stretch;      /* vertical px per horizontal px */
-    double v_origin;     /* 1/m, taken from every vergence: the focus */
-    double v_min, v_max; /* from the origin; surfaces beyond are drawn there: largest radius */
+    wo_rect extent;        /* pixels outside it do not exist */
+    wo_rect format;        /* the optical axis goes through its centre */
+    double focal_px;       /* for WO_DEPTH_RAY */
+    double stretch;        /* vertical px per horizontal px */
+    const wo_focus *focus; /* NULL: one distance is in focus, v_origin */
+    double v_origin;       /* 1/m, taken from every vergence: the focus */
+    double v_min, v_max;   /* from the origin; surfaces beyond are drawn there: largest radius */
 } wo_sheet_source;
 
 /* What was met on the way; added to. */
@@ -57,6 +59,11 @@ WO_NODISCARD wo_status wo_sheet_load(const wo_context *context, const wo_sheet_s
 /* Colour of one pixel: premultiplied, finite, coverage 0..1; outside the bounds the nearest pixel.
    Returns how many samples were not finite, or cut to what sums can hold (1e30). */
 int wo_read_colour(const wo_image *image, wo_alpha alpha, int32_t x, int32_t y, float c[4]);
+
+/* Vergence of one pixel of a layer, 0 with *valid = false where there is none; outside the bounds
+   the nearest pixel. Of source the depth, its channel and reading, format, focal_px and stretch are
+   read. */
+double wo_read_vergence(const wo_sheet_source *source, int32_t x, int32_t y, bool *valid);
 
 /* px that wo_sheet_load looks beyond a pixel. */
 #define WO_SHEET_LOAD_MARGIN 2

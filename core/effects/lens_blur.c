@@ -2,7 +2,8 @@
 /* Copyright the WideOpen authors */
 #include "effects/lens_blur.h"
 
-#include "defocus/lens_rays.h"
+#include "defocus/renderer.h"
+#include "effects/lens_blur_focus.h"
 #include "effects/lens_blur_plan.h"
 #include "optics/lens_choice.h"
 
@@ -24,10 +25,13 @@ bool wo_lens_blur_has_table(const wo_lens_blur_params *p)
            p->door_bottom != 0 || p->door_top != 0;
 }
 
-wo_status wo_lens_blur_prepare(const wo_lens_blur_params *params, const wo_geometry *geometry,
+wo_status wo_lens_blur_prepare(const wo_lens_blur_params *wanted, const wo_geometry *geometry,
                                wo_lens_blur_setup *setup, wo_error *error)
 {
+    wo_lens_blur_params own = *wanted;
+    const wo_lens_blur_params *const params = &own;
     *setup = (wo_lens_blur_setup){0};
+    wo_lens_blur_use_camera(&own, &geometry->camera, NULL);
     WO_TRY(wo_params_validate(wo_lens_blur_table, WO_LENS_BLUR_PARAMS, params, error));
     const double width = wo_rect_width(geometry->format);
     WO_TRY(wo_thin_lens_make(params->focal_length, params->sensor_width, params->f_stop,
@@ -60,10 +64,13 @@ wo_status wo_lens_blur_prepare(const wo_lens_blur_params *params, const wo_geome
             setup->layer_used[i] && params->use_depth && geometry->connected[2 * i + 1];
     }
     setup->mask_used = params->use_mask && geometry->connected[WO_CLIP_MASK];
+    setup->focus_map = params->focus_clip != WO_FOCUS_MAP_OFF && geometry->connected[WO_CLIP_FOCUS];
 
     double radius = params->max_radius * geometry->render_scale;
     const double at_infinity = setup->lens.k * fabs(setup->lens.vf);
-    if (!setup->has_depth)
+    if (!wo_lens_blur_focus_is_plain(params, setup->focus_map))
+        ; /* what is in focus takes pixels to know */
+    else if (!setup->has_depth)
         radius = fmin(radius, at_infinity);
     else if (params->depth_mode == WO_DEPTH_NORMALISED)
         radius = fmin(
@@ -71,9 +78,13 @@ wo_status wo_lens_blur_prepare(const wo_lens_blur_params *params, const wo_geome
                                            wo_thin_lens_coc(&setup->lens, 1 / params->depth_far))));
     setup->radius = radius;
     setup->reach = params->lens == WO_LENS_THIN ? radius : 1.25 * radius + 0.06 * width;
+    setup->tilt = 1;
+    if (params->focus_by == WO_FOCUS_BY_PLANE && !setup->focus_map)
+        setup->tilt = 1 / (1 - WO_FOCUS_TILT_MAX);
+    setup->margin = wo_renderer_of((wo_method)params->method)->margin;
     setup->v_max = radius / setup->lens.k;
     setup->v_min = -setup->v_max;
-    if (setup->has_depth && radius >= WO_SHARP_PX) {
+    if ((setup->has_depth || setup->focus_map) && radius >= WO_SHARP_PX) {
         setup->fill_levels = 1;
         while (setup->fill_levels < FILL_LEVELS_MAX && ldexp(1, setup->fill_levels) < radius)
             setup->fill_levels++;
@@ -103,9 +114,10 @@ wo_lens_blur_areas wo_lens_blur_plan_areas(const wo_lens_blur_setup *setup,
     window = wo_rect_intersect(window, known);
     if (wo_rect_empty(window))
         return areas;
-    const double reach = setup->reach * fmax(1, geometry->pixel_stretch);
+    const double reach = setup->reach * setup->tilt * fmax(1, geometry->pixel_stretch);
     const int32_t margin = (int32_t)ceil(reach) + WO_STACK_MARGIN;
-    const wo_rect tiles = on_grid(window, WO_TILE_WIDTH, WO_TILE_HEIGHT);
+    const wo_rect tiles =
+        on_grid(wo_rect_grow(window, setup->margin, setup->margin), WO_TILE_WIDTH, WO_TILE_HEIGHT);
     areas.stack = wo_stack_grid(wo_rect_grow(tiles, margin, margin));
     /* Highlights are told from areas of light by whole tiles and those around them. */
     areas.layers = wo_rect_grow(on_grid(areas.stack, WO_TILE_WIDTH, WO_TILE_HEIGHT), WO_TILE_WIDTH,
@@ -130,8 +142,17 @@ static wo_status region(const void *params, const wo_geometry *geometry, wo_rect
             *needed = window;
         return WO_OK;
     }
-    if (clip < WO_CLIP_MASK && setup.layer_used[clip / 2])
+    if (clip == WO_CLIP_FOCUS) {
+        if (setup.focus_map)
+            *needed = wo_lens_blur_plan_areas(&setup, geometry, window).layers;
+        return WO_OK;
+    }
+    if (clip < WO_CLIP_MASK && setup.layer_used[clip / 2]) {
+        const wo_rect points = wo_lens_blur_focus_area(params, geometry, setup.focus_map);
         *needed = wo_lens_blur_plan_areas(&setup, geometry, window).layers;
+        if (!wo_rect_empty(points) && !wo_rect_empty(*needed))
+            *needed = wo_rect_union(*needed, points);
+    }
     return WO_OK;
 }
 
@@ -162,6 +183,7 @@ const wo_effect wo_lens_blur = {
     .clip_count = WO_LENS_BLUR_CLIPS,
     .region = region,
     .identity = identity,
+    .handles = wo_lens_blur_handles,
     .plan_create = wo_lens_blur_plan_create,
     .plan_print = wo_lens_blur_plan_print,
     .render = wo_lens_blur_render,

@@ -3,6 +3,7 @@
 #ifndef WO_CORE_EFFECTS_LENS_BLUR_H
 #define WO_CORE_EFFECTS_LENS_BLUR_H
 
+#include "focus/focus_surface.h"
 #include "wideopen/aperture.h"
 #include "wideopen/effect.h"
 #include "wideopen/optics.h"
@@ -14,16 +15,39 @@ typedef enum wo_lens_blur_output {
     WO_OUTPUT_RAYS,
     WO_OUTPUT_ERROR,
     WO_OUTPUT_GUESSED,
+    WO_OUTPUT_FOCUS,
     WO_OUTPUT_COUNT
 } wo_lens_blur_output;
 
+/* Whose camera counts where the metadata names one. */
+typedef enum wo_lens_blur_camera {
+    WO_CAMERA_FROM_PARAMETERS,
+    WO_CAMERA_FROM_METADATA,
+    WO_CAMERA_FROM_OWN_FOCUS, /* metadata, but the parameter's focus */
+    WO_CAMERA_FROM_OWN_STOP,
+    WO_CAMERA_FROM_OWN_BOTH
+} wo_lens_blur_camera;
+
 /* What the user wants; the rows of the table in lens_blur_params.c describe each field. */
 typedef struct wo_lens_blur_params {
+    int32_t camera_from;
     double focal_length;
     double sensor_width;
     double f_stop;
     double focus_distance;
     int32_t breathing;
+    int32_t focus_by;
+    int32_t focus_clip;
+    double field_curvature;
+    double protect_near, protect_far;
+    double near_gain, far_gain;
+    int32_t focus_points;
+    double focus_falloff;
+    double focus_fade;
+    double focus_point[WO_FOCUS_POINTS][2];
+    double focus_offset[WO_FOCUS_POINTS];
+    double focus_weight[WO_FOCUS_POINTS];
+    double focus_dof[WO_FOCUS_POINTS];
     int32_t use_depth;
     int32_t depth_mode;
     double depth_scale;
@@ -66,7 +90,7 @@ typedef struct wo_lens_blur_params {
     int32_t output;
 } wo_lens_blur_params;
 
-enum { WO_LENS_BLUR_PARAMS = 48, WO_LENS_BLUR_GROUPS = 6 };
+enum { WO_LENS_BLUR_PARAMS = 59 + 4 * WO_FOCUS_POINTS, WO_LENS_BLUR_GROUPS = 7 };
 typedef enum wo_sampling { WO_SAMPLING_FIXED, WO_SAMPLING_ADAPTIVE, WO_SAMPLING_COUNT } wo_sampling;
 
 extern const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS];
@@ -79,6 +103,7 @@ enum {
     WO_CLIP_SOURCE = 0, /* layer i: colour 2 i, depth 2 i + 1 */
     WO_CLIP_DEPTH = 1,
     WO_CLIP_MASK = 2 * WO_LENS_BLUR_LAYERS,
+    WO_CLIP_FOCUS,
     WO_LENS_BLUR_CLIPS
 };
 extern const wo_clip wo_lens_blur_clips[WO_LENS_BLUR_CLIPS];
@@ -92,15 +117,25 @@ typedef struct wo_lens_blur_setup {
     int layers; /* that take part */
     bool layer_used[WO_LENS_BLUR_LAYERS];
     bool mask_used;
-    double radius; /* largest circle of confusion that is drawn, px */
-    double reach;  /* px: no ray of the lens goes farther, aberrations included */
+    bool focus_map; /* the Focus clip says where the focus is */
+    double radius;  /* largest circle of confusion that is drawn, px */
+    double reach;   /* px: no ray of the lens goes farther, aberrations included */
+    double tilt;    /* and so many times as far when it is tilted: 1..2 */
     double v_min, v_max;
+    int32_t margin;  /* px round a window that the method wants tiles for */
     int fill_levels; /* of the continuation of hidden surfaces; 0 = no depth, nothing to continue */
 } wo_lens_blur_setup;
 
 /* Does the lens need more than the pencils of the thin lens? */
 bool wo_lens_blur_has_table(const wo_lens_blur_params *params);
 
+/* Puts the camera of the metadata in place of the parameters that camera_from gives up. Each value
+   that is known, and each that was refused, is noted in report, which may be NULL. Doing it twice
+   is doing it once. */
+void wo_lens_blur_use_camera(wo_lens_blur_params *params, const wo_camera *camera,
+                             wo_report *report);
+
+/* With the camera of the metadata, if params want it. */
 WO_NODISCARD wo_status wo_lens_blur_prepare(const wo_lens_blur_params *params,
                                             const wo_geometry *geometry, wo_lens_blur_setup *setup,
                                             wo_error *error);

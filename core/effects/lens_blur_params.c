@@ -3,15 +3,20 @@
 #include "effects/lens_blur.h"
 
 #include "defocus/renderer.h"
+#include "focus/focus.h"
 #include "optics/lens_choice.h"
 #include "spectrum/bands.h"
 
 #define FIELD(name) offsetof(wo_lens_blur_params, name)
 
 const wo_param_group wo_lens_blur_groups[WO_LENS_BLUR_GROUPS] = {
-    {"camera", "Camera", true},     {"depth", "Depth and layers", true},
-    {"aperture", "Aperture", true}, {"lensModel", "Lens", false},
-    {"quality", "Quality", true},   {"view", "Output", true},
+    {"camera", "Camera", true},
+    {"focusControl", "Focus", false},
+    {"depth", "Depth and layers", true},
+    {"aperture", "Aperture", true},
+    {"lensModel", "Lens", false},
+    {"quality", "Quality", true},
+    {"view", "Output", true},
 };
 
 #define DEPTH_KEY(name, key, label)   key,
@@ -23,18 +28,52 @@ static const char *const channel_labels[] = {"Red or single channel", "Green", "
                                              NULL};
 static const char *const forms[] = {"iris", "star", "heart", NULL};
 static const char *const form_labels[] = {"Iris", "Star", "Heart", NULL};
-static const char *const outputs[] = {"image", "coc", "depth", "rays", "error", "guessed", NULL};
+static const char *const outputs[] = {"image", "coc",     "depth",      "rays",
+                                      "error", "guessed", "focusPlane", NULL};
 static const char *const output_labels[] = {
-    "Image", "Circle of confusion", "Depth", "Rays", "Error", "Guessed", NULL};
+    "Image", "Circle of confusion", "Depth", "Rays", "Error", "Guessed", "Focus plane", NULL};
 
-static const char *const methods[] = {"rays", "accumulate", "reference", NULL};
-static const char *const method_labels[] = {"Rays", "Accumulate", "Reference", NULL};
+static const char *const methods[] = {"hybrid", "rays", "filter", "accumulate", "reference", NULL};
+static const char *const method_labels[] = {"Hybrid",     "Rays",      "Filter",
+                                            "Accumulate", "Reference", NULL};
 static const char *const samplings[] = {"fixed", "adaptive", NULL};
 static const char *const sampling_labels[] = {"Fixed", "Adaptive", NULL};
 
+static const char *const cameras[] = {"parameters",
+                                      "metadata",
+                                      "metadataOwnFocus",
+                                      "metadataOwnFNumber",
+                                      "metadataOwnFocusAndFNumber",
+                                      NULL};
+static const char *const camera_labels[] = {"Parameters",
+                                            "Metadata",
+                                            "Metadata, own focus",
+                                            "Metadata, own f-number",
+                                            "Metadata, own focus and f-number",
+                                            NULL};
+
+#include "effects/focus_choices.inc.h"
 #include "effects/lens_choices.inc.h"
 
 const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
+    {.key = "cameraFrom",
+     .label = "Camera from",
+     .unit = "",
+     .group = "camera",
+     .help = "Parameters: the values below and those of Depth, whatever the file says. The others "
+             "put the camera that the metadata of Source or Depth names in their place, value by "
+             "value (focal length, sensor width, f-number, focus, near, far, units); what the "
+             "metadata lacks stays as set here, and so does what is called own. Needs a host that "
+             "passes metadata on; in others it changes nothing.",
+     .type = WO_PARAM_CHOICE,
+     .offset = FIELD(camera_from),
+     .initial = {WO_CAMERA_FROM_PARAMETERS},
+     .min = 0,
+     .max = 4,
+     .ui_min = 0,
+     .ui_max = 4,
+     .choices = cameras,
+     .choice_labels = camera_labels},
     {.key = "focalLength",
      .label = "Focal length",
      .unit = "mm",
@@ -102,6 +141,7 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .max = 1,
      .ui_min = 0,
      .ui_max = 1},
+#include "effects/focus_params.inc.h"
     {.key = "useDepth",
      .label = "Use depth",
      .unit = "",
@@ -216,13 +256,19 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .label = "Method",
      .unit = "",
      .group = "quality",
-     .help = "How the blur is made. Rays: lens rays through the layers, the same number for every "
-             "pixel. Accumulate: whole pictures, each seen from one point of the lens, the same points "
-             "for all pixels: fast, and few samples show as ghosts in place of noise. "
-             "Reference: the same by brute force, some 25 times slower, for checking.",
+     .help =
+         "How the blur is made. Hybrid: lens rays, and smoothing of what is far out of focus, as "
+         "much "
+         "as its own blur allows: the best picture for the time. Rays: lens rays alone. Filter: "
+         "every pixel gathers what blurs over it, from its neighbours and from as "
+         "many taps as there are samples on each side of the focus; at 64 samples some 4 times as "
+         "fast as rays, good for previews; it keeps two surfaces a pixel, and draws no colour "
+         "fringes. Accumulate: whole pictures, each seen from one point of the lens, the "
+         "same points for all pixels: what rays show as noise it shows as faint ghosts. "
+         "Reference: rays by brute force, some 25 times slower, for checking.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(method),
-     .initial = {WO_METHOD_RAYS},
+     .initial = {WO_METHOD_HYBRID},
      .min = 0,
      .max = WO_METHOD_COUNT - 1,
      .ui_min = 0,
@@ -249,8 +295,9 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .label = "Target error",
      .unit = "",
      .group = "quality",
-     .help = "Adaptive sampling goes on until the estimated error of the displayed picture (black "
-             "0, white 1) is below this. 1/255 = 0.004 is one step of an 8-bit display.",
+     .help = "Adaptive sampling goes on until noise beyond this is not to be expected: until three "
+             "estimated standard errors of the displayed picture (black 0, white 1) are below it. "
+             "1/255 = 0.004 is one step of an 8-bit display.",
      .type = WO_PARAM_DOUBLE,
      .offset = FIELD(target_error),
      .initial = {0.004},
@@ -316,7 +363,8 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .help =
          "The image, or a view of the plan: the radius of the circle of confusion in px "
          "(positive in front of the focus, negative behind), the depth in metres, the lens rays "
-         "of each pixel, its estimated error, or how much of its light was guessed.",
+         "of each pixel, its estimated error, how much of its light was guessed, or "
+         "what is in front of the focus (blue), in it to half a px (green) and behind it (red).",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(output),
      .initial = {WO_OUTPUT_IMAGE},
@@ -355,4 +403,7 @@ const wo_clip wo_lens_blur_clips[WO_LENS_BLUR_CLIPS] = {
      .optional = true,
      .mask = true,
      .components = WO_COMPONENT_ALPHA | WO_COMPONENT_RGB | WO_COMPONENT_RGBA},
+    DEPTH("Focus", "Focus",
+          "Where the focus is, pixel by pixel, or how large the blur; see Focus clip is. The first "
+          "channel counts."),
 };

@@ -2,11 +2,9 @@
 /* Copyright the WideOpen authors */
 #include "effects/lens_blur_plan.h"
 
-#include "optics/lens_choice.h"
+#include "effects/lens_blur_focus.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 #include <time.h>
 
@@ -15,9 +13,6 @@ double wo_seconds(void)
     struct timespec now;
     return timespec_get(&now, TIME_UTC) ? (double)now.tv_sec + 1e-9 * (double)now.tv_nsec : 0;
 }
-
-/* Tangent of the farthest field point that a table is made for: some 85 degrees. */
-#define FIELD_MAX 11.0
 
 /* Layers, then split edges, then what is hidden. */
 enum { EDGES = WO_LENS_BLUR_LAYERS, HIDDEN, SHEETS };
@@ -70,7 +65,9 @@ static wo_status load_layers(const wo_plan *plan, const wo_plan_args *args, wo_r
             .format = plan->geometry.format,
             .focal_px = setup->lens.focal_px,
             .stretch = plan->geometry.pixel_stretch,
-            .v_origin = setup->lens.vf,
+            .v_origin = plan->focus.v_axis,
+            .focus =
+                plan->focus.flat || plan->params.output == WO_OUTPUT_DEPTH ? NULL : &plan->focus,
             .v_min = setup->v_min,
             .v_max = setup->v_max,
         };
@@ -108,7 +105,7 @@ static void note_layers(wo_plan *plan, const wo_sheet sheets[SHEETS], int64_t sp
     for (int i = 0; i < WO_LENS_BLUR_LAYERS; i++)
         if (plan->setup.layer_used[i] && !sheets[i].any)
             wo_report_leave_out(report, "layers", "empty or not connected", 1, "layers");
-    if (!plan->setup.has_depth)
+    if (!plan->setup.has_depth && !plan->setup.focus_map)
         wo_report_leave_out(report, "edges and hidden surfaces", "no depth: one distance", 0, "");
     else if (split == 0)
         wo_report_leave_out(report, "sheet of split edges", "no pixel mixes two distances", 1,
@@ -194,108 +191,17 @@ static wo_status check_args(const wo_plan_args *args, wo_error *error)
         return wo_fail(error, WO_ERR_RANGE, "the picture reaches beyond %d..%d px",
                        -WO_MAX_COORDINATE, WO_MAX_COORDINATE);
     if (!(g->render_scale > 0 && g->render_scale <= 64) ||
-        !(g->pixel_stretch >= 1.0 / 64 && g->pixel_stretch <= 64))
-        return wo_fail(error, WO_ERR_RANGE, "render scale %g, pixel stretch %g: out of range",
-                       g->render_scale, g->pixel_stretch);
+        !(g->pixel_stretch >= 1.0 / 64 && g->pixel_stretch <= 64) ||
+        !(g->pixel_aspect > 1e-4 && g->pixel_aspect < 1e4))
+        return wo_fail(error, WO_ERR_RANGE,
+                       "render scale %g, pixel stretch %g, pixel aspect %g: out of range",
+                       g->render_scale, g->pixel_stretch, g->pixel_aspect);
     if (wo_rect_empty(args->window))
         return wo_fail(error, WO_ERR_ARGUMENT, "nothing to render: the window is empty");
     for (size_t i = 0; i < WO_LENS_BLUR_CLIPS; i++)
         WO_TRY(wo_image_validate(&args->inputs[i], wo_lens_blur_clips[i].name, error));
     if (!args->inputs[WO_CLIP_SOURCE].data)
         return wo_fail(error, WO_ERR_ARGUMENT, "Source is not connected");
-    return WO_OK;
-}
-
-static int most_rays(const wo_quality *quality)
-{
-    return quality->adaptive ? quality->max_rays : quality->samples;
-}
-
-/* Any lens but the thin one, through its table. */
-static wo_status make_table_lens(wo_plan *plan, wo_error *error)
-{
-    const wo_lens_blur_params *p = &plan->params;
-    const wo_lens_blur_setup *s = &plan->setup;
-    const wo_geometry *g = &plan->geometry;
-    const wo_rect far = wo_rect_union(g->extent, g->format);
-    const int count = most_rays(&plan->quality);
-    const int wavelengths = p->wavelengths < count ? p->wavelengths : count;
-    wo_table_pencil_options options = {
-        .aperture = &s->aperture,
-        .focal_px = s->lens.focal_px,
-        .stretch = g->pixel_stretch,
-        .centre_x = 0.5 * (g->format.x1 + g->format.x2),
-        .centre_y = 0.5 * (g->format.y1 + g->format.y2),
-        .max_reach = s->reach * fmax(1, g->pixel_stretch) + 0.25,
-        .v_limit = s->v_max,
-        .half_diagonal =
-            0.5 * hypot(wo_rect_width(g->format), wo_rect_height(g->format) / g->pixel_stretch),
-        .doors = {p->door_left, p->door_right, p->door_bottom, p->door_top},
-        .count = count,
-        .wavelengths = wavelengths,
-        .seed = (uint32_t)p->seed,
-    };
-    const double dx = fmax(far.x2 - options.centre_x, options.centre_x - far.x1);
-    const double dy = fmax(far.y2 - options.centre_y, options.centre_y - far.y1);
-    const double corner = hypot(dx, dy / g->pixel_stretch) / s->lens.focal_px;
-    wo_bands bands;
-    wo_bands_make(wavelengths, &bands);
-    const wo_lens_choice choice = {
-        .kind = (wo_lens_kind)p->lens,
-        .design = wo_lens_name_at((size_t)p->lens_design),
-        .diagram = (wo_diagram_preset)p->lens_diagram,
-        .residual = p->lens_residual,
-        .glass = p->lens_glass,
-        .bending = p->lens_bending,
-        .thickness_mm = p->lens_thickness,
-        .focal_mm = p->focal_length,
-        .f_number = p->f_stop,
-        .cats_eye = p->cats_eye * corner * s->lens.focal_px / options.half_diagonal,
-        .best_focus = p->best_focus != 0,
-        .vf = s->lens.vf,
-        .half_field = fmin(fmax(corner, 1e-3), FIELD_MAX),
-        .nm = bands.nm,
-        .lines = bands.count,
-    };
-    wo_chosen_lens *chosen = wo_new(&plan->context, error, 1, sizeof *chosen);
-    if (!chosen)
-        return WO_ERR_NOMEM;
-    wo_status status = wo_lens_choose(&choice, chosen, error);
-    if (status == WO_OK) {
-        options.px_per_dioptre =
-            s->lens.k * fmax(1, g->pixel_stretch) * (p->f_stop / fmax(chosen->f_number, p->f_stop));
-        status = wo_table_pencils_create(&plan->context, &chosen->model, &options, &plan->table,
-                                         &plan->facts, error);
-    }
-    plan->f_number = chosen->f_number;
-    wo_delete(&plan->context, chosen);
-    if (status != WO_OK)
-        return status;
-    plan->lens = wo_table_pencils_lens(plan->table);
-    if (plan->facts.beyond > 0)
-        wo_report_leave_out(&plan->report, "lens rays", "they go farther than the largest blur",
-                            100 * plan->facts.beyond, "% of those tried");
-    return WO_OK;
-}
-
-static wo_status make_lens(wo_plan *plan, wo_error *error)
-{
-    plan->f_number = plan->params.f_stop;
-    if (wo_lens_blur_has_table(&plan->params)) {
-        WO_TRY(make_table_lens(plan, error));
-        if (!plan->facts.ideal)
-            return WO_OK;
-        wo_table_pencils_destroy(&plan->context, &plan->table);
-        wo_report_leave_out(&plan->report, "table of the lens",
-                            "it has no aberrations: a thin lens", 0, "");
-    }
-    /* Inside the renderer vergence is counted from the focus. */
-    wo_thin_lens lens = plan->setup.lens;
-    lens.vf = 0;
-    WO_TRY(wo_thin_pencils_create(&plan->context, &lens, &plan->setup.aperture,
-                                  plan->geometry.pixel_stretch, most_rays(&plan->quality),
-                                  (uint32_t)plan->params.seed, &plan->pencils, error));
-    plan->lens = wo_thin_pencils_lens(plan->pencils);
     return WO_OK;
 }
 
@@ -310,6 +216,7 @@ wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params
     plan->context = *context;
     memcpy(&plan->params, params, sizeof plan->params);
     plan->geometry = args->geometry;
+    wo_lens_blur_use_camera(&plan->params, &plan->geometry.camera, &plan->report);
     for (size_t i = 0; i < WO_LENS_BLUR_CLIPS; i++)
         plan->geometry.connected[i] = args->inputs[i].data != NULL;
     const bool adaptive = plan->params.sampling == WO_SAMPLING_ADAPTIVE;
@@ -324,13 +231,16 @@ wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params
     wo_status status = wo_lens_blur_prepare(&plan->params, &plan->geometry, &plan->setup, error);
     if (status != WO_OK || wo_rect_empty(plan->window))
         goto done;
-    if ((status = make_lens(plan, error)) != WO_OK)
+    status = wo_lens_blur_focus_make(&plan->params, args, &plan->setup, &plan->focus, error);
+    if (status != WO_OK || (status = wo_lens_blur_lens_make(plan, error)) != WO_OK)
         goto done;
     if ((status = build_scene(plan, args, error)) != WO_OK)
         goto done;
     const double start = wo_seconds();
-    status = wo_lens_rays_create(&plan->context, &plan->stack, &plan->lens, plan->window,
-                                 plan->setup.reach * fmax(1, plan->geometry.pixel_stretch),
+    status = wo_lens_rays_create(&plan->context, &plan->stack, &plan->lens,
+                                 wo_rect_grow(plan->window, plan->setup.margin, plan->setup.margin),
+                                 plan->setup.reach * plan->setup.tilt *
+                                     fmax(1, plan->geometry.pixel_stretch),
                                  &plan->rays, error);
     plan->report.seconds[WO_STAGE_PLAN] = wo_seconds() - start;
 done:
@@ -348,84 +258,7 @@ void wo_lens_blur_plan_destroy(wo_plan **plan)
     wo_lens_rays_destroy(&context, &(*plan)->rays);
     wo_stack_destroy(&context, &(*plan)->stack);
     wo_highlights_destroy(&context, &(*plan)->highlights);
-    wo_thin_pencils_destroy(&context, &(*plan)->pencils);
-    wo_table_pencils_destroy(&context, &(*plan)->table);
+    wo_lens_blur_lens_destroy(*plan);
     wo_delete(&context, *plan);
     *plan = NULL;
-}
-
-typedef struct printer {
-    char *buffer;
-    size_t size;
-    int length;
-} printer;
-
-static void add(printer *p, const char *format, ...) WO_PRINTF(2, 3);
-
-static void add(printer *p, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    const size_t used = (size_t)p->length < p->size ? (size_t)p->length : p->size;
-    const int n = vsnprintf(p->buffer ? p->buffer + used : NULL, p->size - used, format, args);
-    va_end(args);
-    p->length += n > 0 ? n : 0;
-}
-
-int wo_lens_blur_plan_print(const wo_plan *plan, char *buffer, size_t size)
-{
-    printer p = {buffer, size, 0};
-    const wo_lens_blur_setup *s = &plan->setup;
-    const wo_rect w = plan->window;
-    int64_t tiles[WO_TILE_CLASS_COUNT] = {0};
-    double reach = 0;
-    const size_t count =
-        (size_t)wo_rect_width(plan->rays.tiles) * (size_t)wo_rect_height(plan->rays.tiles);
-    for (size_t i = 0; plan->rays.tile && i < count; i++) {
-        tiles[plan->rays.tile[i].class]++;
-        reach = fmax(reach, (double)plan->rays.tile[i].reach);
-    }
-    if (size > 0)
-        buffer[0] = 0;
-    add(&p, "window      %d,%d .. %d,%d (%d x %d px)\n", w.x1, w.y1, w.x2, w.y2, wo_rect_width(w),
-        wo_rect_height(w));
-    add(&p, "lens        %g mm f/%g, focus at %g m; blur radius %.4g px per dioptre\n",
-        plan->params.focal_length, plan->params.f_stop, plan->params.focus_distance,
-        plan->lens.px_per_dioptre);
-    if (plan->table) {
-        const wo_table_facts *f = &plan->facts;
-        const bool real =
-            plan->params.lens == WO_LENS_PRESCRIPTION || plan->params.lens == WO_LENS_SEIDEL;
-        const char *design = real ? wo_lens_name_at((size_t)plan->params.lens_design) : "";
-        add(&p,
-            "            %s%s%s, f/%.4g reached; %d wavelengths (colours part by %.2f px), "
-            "aberrations "
-            "up to %.2f px in the plane of focus\n",
-            wo_lens_blur_lens_labels[plan->params.lens], design[0] ? " " : "", design,
-            plan->f_number, f->wavelengths, f->colour_px, f->aberration_px);
-        add(&p,
-            "table       degree %d, %d field points; %.4f px RMS from the exact rays; lit to %.1f "
-            "degrees\n",
-            f->degree, f->nodes, f->rms_px, atan(f->field_lit) * (180 / 3.14159265358979323846));
-    }
-    add(&p, "blur        largest radius %.2f px (limit %.2f px)\n", reach, s->radius);
-    add(&p,
-        "layers      %d connected, %s; %d sheets after splitting edges and continuing hidden "
-        "surfaces\n",
-        s->layers, s->has_depth ? "with depth" : "no depth: all at infinity", plan->stack.sheets);
-    add(&p, "highlights  %zu connected directly\n", plan->highlights.count);
-    if (plan->quality.adaptive)
-        add(&p, "samples     up to %d lens rays for each pixel, to an error of %g; ",
-            plan->quality.max_rays, plan->quality.target_error);
-    else
-        add(&p, "samples     %d lens rays for each pixel; ", plan->quality.samples);
-    add(&p, "%u different pencils; method %s\n", plan->lens.sets,
-        wo_renderer_of((wo_method)plan->params.method)->key);
-    for (int i = 0; i < WO_TILE_CLASS_COUNT; i++)
-        add(&p, "tiles       %-7s %lld\n", wo_tile_class_text((wo_tile_class)i),
-            (long long)tiles[i]);
-    for (int i = 0; i < plan->report.left_out_count; i++)
-        add(&p, "left out    %s: %s\n", plan->report.left_out[i].what,
-            plan->report.left_out[i].why);
-    return p.length;
 }

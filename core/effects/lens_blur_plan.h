@@ -5,7 +5,11 @@
 
 #include "defocus/renderer.h"
 #include "effects/lens_blur.h"
+#include "focus/focus.h"
 #include "optics/pencil_table.h"
+#include "optics/pencil_tilt.h"
+
+enum { WO_LEVELS_MAX = 12 };
 
 /* The plan of LensBlur: the scene made ready, the lens, a class for every tile. */
 struct wo_plan {
@@ -16,11 +20,16 @@ struct wo_plan {
     wo_rect window;
     wo_image mask, source; /* borrowed */
     wo_alpha source_alpha;
-    wo_thin_pencils *pencils; /* the one or the other */
-    wo_table_pencils *table;
+    int levels;                              /* the lens with more and more rays */
+    wo_thin_pencils *pencils[WO_LEVELS_MAX]; /* the one or the other */
+    wo_table_pencils *table[WO_LEVELS_MAX];  /* [0] owns the table */
+    wo_lens level[WO_LEVELS_MAX];
     wo_table_facts facts; /* of the table */
     double f_number;      /* reached by the lens */
-    wo_lens lens;
+    wo_focus focus;
+    wo_lens upright[WO_LEVELS_MAX]; /* before the tilt */
+    wo_tilted_pencils tilted[WO_LEVELS_MAX];
+    wo_lens lens; /* the last level */
     wo_stack stack;
     wo_highlights highlights;
     wo_lens_rays rays;
@@ -34,6 +43,11 @@ int wo_lens_blur_plan_print(const wo_plan *plan, char *buffer, size_t size);
 wo_status wo_lens_blur_render(const wo_plan *plan, wo_rect window, const wo_image *output,
                               wo_report *report, wo_error *error);
 void wo_lens_blur_plan_destroy(wo_plan **plan);
+
+/* The lens at every level, tilted as the focus wants it; needs params, geometry, setup and focus.
+   What was made before a failure is destroyed with the plan. */
+wo_status wo_lens_blur_lens_make(wo_plan *plan, wo_error *error);
+void wo_lens_blur_lens_destroy(wo_plan *plan);
 
 /* Seconds of a steady clock. */
 double wo_seconds(void);

@@ -182,8 +182,11 @@ static wo_status render_frame(render_job *job, wo_report *report, wo_error *erro
     const wo_defocus scene = {.context = &plan->context,
                               .stack = &plan->stack,
                               .lens = &plan->lens,
+                              .levels = plan->level,
+                              .level_count = plan->levels,
                               .highlights = &plan->highlights,
                               .rays = &plan->rays,
+                              .extent = plan->geometry.extent,
                               .quality = plan->quality};
     WO_TRY(renderer->render(&scene, &job->frame, &part, error));
     part.seconds[WO_STAGE_RENDER] = wo_seconds() - start;

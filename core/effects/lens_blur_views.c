@@ -39,7 +39,7 @@ static void circle_of_confusion(const wo_plan *plan, const wo_frame *frame, int3
 static void depth(const wo_plan *plan, const wo_frame *frame, int32_t x, int32_t y, float out[4])
 {
     (void)frame;
-    const double v = (double)nearest_surface(&plan->stack, x, y) + plan->setup.lens.vf;
+    const double v = (double)nearest_surface(&plan->stack, x, y) + plan->focus.v_axis;
     show(v > 1e-9 ? 1 / v : 0, out);
 }
 
@@ -63,8 +63,26 @@ static void guessed(const wo_plan *plan, const wo_frame *frame, int32_t x, int32
     out[3] = out[0];
 }
 
+/* Up to this radius of blur a surface counts as in focus, px. */
+#define IN_FOCUS_PX 0.5
+
+/* Blue in front of the focus, green in it, red behind, over the picture's luminance. */
+static void focus_plane(const wo_plan *plan, const wo_frame *frame, int32_t x, int32_t y,
+                        float out[4])
+{
+    (void)frame;
+    float c[4];
+    const double px = plan->setup.lens.k * (double)nearest_surface(&plan->stack, x, y);
+    (void)wo_read_colour(&plan->source, plan->source_alpha, x, y, c);
+    const float grey = fminf(fmaxf(0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2], 0), 1);
+    show(0.5 * (double)grey, out);
+    if (!isnan(px))
+        out[px > IN_FOCUS_PX ? 2 : px < -IN_FOCUS_PX ? 0 : 1] += 0.1f + 0.4f * grey;
+}
+
 const wo_view wo_views[WO_OUTPUT_COUNT] = {
-    [WO_OUTPUT_IMAGE] = {true, image},  [WO_OUTPUT_COC] = {false, circle_of_confusion},
-    [WO_OUTPUT_DEPTH] = {false, depth}, [WO_OUTPUT_RAYS] = {true, rays},
-    [WO_OUTPUT_ERROR] = {true, error},  [WO_OUTPUT_GUESSED] = {true, guessed},
+    [WO_OUTPUT_IMAGE] = {true, image},        [WO_OUTPUT_COC] = {false, circle_of_confusion},
+    [WO_OUTPUT_DEPTH] = {false, depth},       [WO_OUTPUT_RAYS] = {true, rays},
+    [WO_OUTPUT_ERROR] = {true, error},        [WO_OUTPUT_GUESSED] = {true, guessed},
+    [WO_OUTPUT_FOCUS] = {false, focus_plane},
 };

@@ -31,6 +31,7 @@ typedef struct wo_lens {
     unsigned
         sets;  /* number of different pencils for one sensor point; neighbours use different ones */
     int count; /* rays of a pencil */
+    int half;  /* rays 0..half-1 and the rest are two good samplings of the lens each */
     /* Rays first.. of pencil number set (0..sets-1) at the sensor point (x, y) px, as many as are
        left but no more than WO_PENCIL_PIECE. first: a multiple of that. *out may point into *room.
      */

@@ -9,17 +9,20 @@
 
 struct wo_table_pencils {
     wo_lens_table *table;
+    bool borrowed; /* the table */
     wo_table_function *eval;
     wo_table_pencil_options options;
     wo_bands bands;
     bool uniform; /* all weights are 1 */
     bool has_doors;
     unsigned sets;
-    int begin[WO_LINES_MAX + 1]; /* first ray of each wavelength */
-    size_t stride;               /* floats of one coordinate of a set */
-    float *points;               /* [sets][3][stride]: iris points and their weights, wavelength by
-                                    wavelength */
-    double reach_a, reach_b;     /* px, px per dioptre */
+    int half;
+    int begin[2 * WO_LINES_MAX + 1]; /* first ray of each wavelength of the first half of the rays,
+                                        then of the second */
+    size_t stride;                   /* floats of one coordinate of a set */
+    float *points;           /* [sets][3][stride]: iris points and their weights, wavelength by
+                                wavelength */
+    double reach_a, reach_b; /* px, px per dioptre */
 };
 
 /* Rays of one wavelength, at tangent h in the direction (c, s) from the axis. */
@@ -95,11 +98,11 @@ static void table_pencil(const void *self, double x, double y, unsigned set, int
     const float *points = p->points + 3 * p->stride * set;
     const int left = p->options.count - first;
     const int count = left < WO_PENCIL_PIECE ? left : WO_PENCIL_PIECE;
-    for (int line = 0; line < p->table->lines; line++) {
-        const int from = p->begin[line] > first ? p->begin[line] : first;
-        const int to = p->begin[line + 1] < first + count ? p->begin[line + 1] : first + count;
+    for (int run = 0; run < 2 * p->table->lines; run++) {
+        const int from = p->begin[run] > first ? p->begin[run] : first;
+        const int to = p->begin[run + 1] < first + count ? p->begin[run + 1] : first + count;
         if (from < to)
-            make_rays(p, line, h, c, s, points + from, points + p->stride + from,
+            make_rays(p, run % p->table->lines, h, c, s, points + from, points + p->stride + from,
                       points + 2 * p->stride + from, to - from, from - first, room);
     }
     if (p->has_doors)
@@ -116,6 +119,23 @@ static double table_reach(const void *self, double v_far, double v_near)
     return fmin(p->reach_a + p->reach_b * fmax(fabs(v_far), fabs(v_near)), p->options.max_reach);
 }
 
+/* Rays of a wavelength, in both halves. */
+static int rays_of(const wo_table_pencils *p, int line)
+{
+    const int64_t count = p->options.count;
+    return (int)(count * (line + 1) / p->table->lines - count * line / p->table->lines);
+}
+
+static void share_rays(wo_table_pencils *p)
+{
+    const int lines = p->table->lines;
+    for (int run = 0; run < 2 * lines; run++) {
+        const int n = rays_of(p, run % lines);
+        p->begin[run + 1] = p->begin[run] + (run < lines ? n / 2 : n - n / 2);
+    }
+    p->half = p->begin[lines];
+}
+
 /* Iris points of all sets: for each wavelength a lattice of its own, moved against the others'. */
 static void make_points(wo_table_pencils *p, const wo_aperture_shape *shape)
 {
@@ -125,14 +145,15 @@ static void make_points(wo_table_pencils *p, const wo_aperture_shape *shape)
         float *const y = x + p->stride;
         float *const light = y + p->stride;
         for (int line = 0; line < lines; line++) {
-            const int begin = p->begin[line];
-            const int n = p->begin[line + 1] - begin;
+            const int n = rays_of(p, line);
             for (int i = 0; i < n; i++) {
+                const int to = i < n / 2 ? p->begin[line] + i : p->begin[lines + line] + i - n / 2;
                 double u[2];
-                wo_lattice_point(p->options.seed, set, i + (line + 0.5) / lines, n, line, shape, u);
-                x[begin + i] = (float)u[0];
-                y[begin + i] = (float)u[1];
-                light[begin + i] = (float)(wo_aperture_weight(shape, u[0], u[1]) / shape->light);
+                wo_lattice_point(p->options.seed, set,
+                                 wo_lattice_order(i, n) + (line + 0.5) / lines, n, line, shape, u);
+                x[to] = (float)u[0];
+                y[to] = (float)u[1];
+                light[to] = (float)(wo_aperture_weight(shape, u[0], u[1]) / shape->light);
             }
         }
     }
@@ -204,6 +225,42 @@ static wo_status make_table(const wo_context *context, const wo_lens_model *mode
     return WO_OK;
 }
 
+/* For the points of so many rays as the options say. */
+static wo_status make_room(const wo_context *context, wo_table_pencils *p, wo_error *error)
+{
+    share_rays(p);
+    p->sets = wo_lattice_sets(p->options.count);
+    p->stride = (size_t)p->options.count + WO_LANES;
+    p->points = wo_new(context, error, 3 * p->stride * p->sets, sizeof *p->points);
+    return p->points ? WO_OK : WO_ERR_NOMEM;
+}
+
+wo_status wo_table_pencils_again(const wo_context *context, const wo_table_pencils *first,
+                                 const wo_aperture *aperture, int count, wo_table_pencils **pencils,
+                                 wo_error *error)
+{
+    *pencils = NULL;
+    if (count < 1)
+        return wo_fail(error, WO_ERR_RANGE, "%d samples: at least 1 is needed", count);
+    wo_table_pencils *p = wo_new(context, error, 1, sizeof *p);
+    if (!p)
+        return WO_ERR_NOMEM;
+    *p = *first;
+    p->borrowed = true;
+    p->options.count = count;
+    p->points = NULL;
+    const wo_status status = make_room(context, p, error);
+    if (status != WO_OK) {
+        wo_table_pencils_destroy(context, &p);
+        return status;
+    }
+    wo_aperture_shape shape;
+    wo_aperture_make(aperture, &shape);
+    make_points(p, &shape);
+    *pencils = p;
+    return WO_OK;
+}
+
 wo_status wo_table_pencils_create(const wo_context *context, const wo_lens_model *model,
                                   const wo_table_pencil_options *options,
                                   wo_table_pencils **pencils, wo_table_facts *facts,
@@ -228,14 +285,8 @@ wo_status wo_table_pencils_create(const wo_context *context, const wo_lens_model
         facts->colour_px = colour_px;
     }
     if (status == WO_OK) {
-        const int lines = p->table->lines;
-        for (int i = 0; i <= lines; i++)
-            p->begin[i] = (int)((int64_t)options->count * i / lines);
-        p->uniform &= lines == 1;
-        p->sets = wo_lattice_sets(options->count);
-        p->stride = (size_t)options->count + WO_LANES;
-        p->points = wo_new(context, error, 3 * p->stride * p->sets, sizeof *p->points);
-        status = p->points ? WO_OK : WO_ERR_NOMEM;
+        p->uniform &= p->table->lines == 1;
+        status = make_room(context, p, error);
     }
     if (status != WO_OK) {
         wo_table_pencils_destroy(context, &p);
@@ -261,7 +312,8 @@ wo_status wo_table_pencils_create(const wo_context *context, const wo_lens_model
 void wo_table_pencils_destroy(const wo_context *context, wo_table_pencils **pencils)
 {
     if (*pencils) {
-        wo_lens_table_destroy(context, &(*pencils)->table);
+        if (!(*pencils)->borrowed)
+            wo_lens_table_destroy(context, &(*pencils)->table);
         wo_delete(context, (*pencils)->points);
     }
     wo_delete(context, *pencils);
@@ -273,6 +325,7 @@ wo_lens wo_table_pencils_lens(const wo_table_pencils *pencils)
     return (wo_lens){.self = pencils,
                      .sets = pencils->sets,
                      .count = pencils->options.count,
+                     .half = pencils->half,
                      .pencil = table_pencil,
                      .reach = table_reach,
                      .px_per_dioptre = pencils->options.px_per_dioptre};

@@ -46,6 +46,12 @@ WO_NODISCARD wo_status wo_table_pencils_create(const wo_context *context,
                                                const wo_table_pencil_options *options,
                                                wo_table_pencils **pencils, wo_table_facts *facts,
                                                wo_error *error);
+/* The same lens with another number of rays, count >= 1. It borrows the table of first, which must
+   outlive it. */
+WO_NODISCARD wo_status wo_table_pencils_again(const wo_context *context,
+                                              const wo_table_pencils *first,
+                                              const wo_aperture *aperture, int count,
+                                              wo_table_pencils **pencils, wo_error *error);
 void wo_table_pencils_destroy(const wo_context *context, wo_table_pencils **pencils);
 wo_lens wo_table_pencils_lens(const wo_table_pencils *pencils);
 

@@ -79,7 +79,8 @@ wo_status wo_thin_pencils_create(const wo_context *context, const wo_thin_lens *
         float *rays = p->rays + 4 * n * set;
         for (size_t i = 0; i < n; i++) {
             double u[2];
-            wo_lattice_point(seed, set, (double)i + 0.5, count, 0, &p->shape, u);
+            wo_lattice_point(seed, set, wo_lattice_order((int)i, count) + 0.5, count, 0, &p->shape,
+                             u);
             const double bx = lens->k * u[0];
             const double by = lens->k * u[1] * stretch;
             rays[i] = (float)(-bx * lens->vf);
@@ -110,6 +111,7 @@ wo_lens wo_thin_pencils_lens(const wo_thin_pencils *pencils)
     return (wo_lens){.self = pencils,
                      .sets = pencils->sets,
                      .count = pencils->count,
+                     .half = pencils->count / 2,
                      .pencil = thin_pencil,
                      .reach = thin_reach,
                      .px_per_dioptre = pencils->lens.k * fmax(1, pencils->stretch),

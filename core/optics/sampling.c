@@ -17,11 +17,9 @@ unsigned wo_lattice_sets(int count)
 void wo_lattice_point(uint32_t seed, unsigned set, double at, int n, int row,
                       const wo_aperture_shape *shape, double u[2])
 {
-    const double shift_s = wo_hash(2 * set + 1 + 0x9e3779b9u * seed) * 0x1p-32;
-    const double shift_t = wo_hash(2 * set + 2 + 0x85ebca6bu * seed) * 0x1p-32;
-    double whole;
-    const double s = modf(shift_s + at / n, &whole);
-    const double t =
-        modf(shift_t + floor(at) * 0.6180339887498949 + row * 0.7548776662466927, &whole);
-    wo_aperture_sample(shape, s, t, u);
+    /* Moved evenly over consecutive sets: Roberts' R2 sequence (2018), begun anew for each seed. */
+    const double s = wo_hash(1 + 0x9e3779b9u * seed) * 0x1p-32 + set * 0.7548776662466927 + at / n;
+    const double t = wo_hash(2 + 0x85ebca6bu * seed) * 0x1p-32 + set * 0.5698402909980532 +
+                     floor(at) * 0.6180339887498949 + row * 0.7548776662466927;
+    wo_aperture_sample(shape, s - floor(s), t - floor(t), u);
 }

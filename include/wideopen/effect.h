@@ -3,6 +3,7 @@
 #ifndef WIDEOPEN_EFFECT_H
 #define WIDEOPEN_EFFECT_H
 
+#include "wideopen/camera.h"
 #include "wideopen/context.h"
 #include "wideopen/image.h"
 #include "wideopen/param.h"
@@ -42,19 +43,23 @@ typedef struct wo_param_group {
     bool open; /* shown open at first */
 } wo_param_group;
 
-/* What is known about the picture before its pixels. All in pixels at the present render scale. */
+/* What is known about the picture before its pixels. Sizes in pixels at the present render scale.
+ */
 typedef struct wo_geometry {
     wo_rect format;       /* the frame the camera saw: its width is the sensor's width */
     wo_rect extent;       /* where Source has pixels (region of definition) */
     double render_scale;  /* horizontal; parameters in px are multiplied by it */
     double pixel_stretch; /* height of a horizontal pixel's worth in vertical pixels:
                              pixel aspect ratio times vertical over horizontal render scale */
+    double pixel_aspect;  /* pixel aspect ratio: points are in canonical coordinates, which are
+                             px times it, over the render scale */
     bool connected[WO_CLIPS_MAX];
+    wo_camera camera; /* that the picture's metadata names; zero where nothing is known */
 } wo_geometry;
 
 #define WO_GEOMETRY_INIT                                                                           \
     {                                                                                              \
-        .render_scale = 1, .pixel_stretch = 1                                                      \
+        .render_scale = 1, .pixel_stretch = 1, .pixel_aspect = 1                                   \
     }
 
 /* State of Source's alpha; outputs are always premultiplied. */
@@ -95,6 +100,11 @@ typedef struct wo_effect {
 
     /* Index of the clip the output is a plain copy of, or -1; decided without pixels. */
     int (*identity)(const void *params, const wo_geometry *geometry);
+
+    /* How many of the points marked wo_param.overlay are in use, the first ones of the table;
+       *joined says whether they belong together (a plane through them) and are shown joined by
+       lines. NULL: all of them, each for itself. */
+    int (*handles)(const void *params, bool *joined);
 
     /* *plan is NULL after a failure. One thread; the work inside uses context->runner. Keeps a copy
        of params, and of *context, whose pointers must stay valid until the plan is destroyed. */

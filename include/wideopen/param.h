@@ -40,6 +40,8 @@ typedef struct wo_param {
     const char *const *choice_labels; /* labels of the choices, same order; NULL = the keys */
     const char *initial_text;         /* WO_PARAM_STRING */
     bool animates;                    /* may change over time */
+    bool overlay; /* a host that draws over its viewer shows it: a WO_PARAM_POINT as a handle, in
+                     canonical coordinates; other types decide what is shown (wo_effect.handles) */
 } wo_param;
 
 /* Number of numeric values of a row: 1, 2 or 3; 0 for a string. */

@@ -3,7 +3,7 @@
 #ifndef WIDEOPEN_REPORT_H
 #define WIDEOPEN_REPORT_H
 
-#include "wideopen/base.h"
+#include "wideopen/camera.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -46,6 +46,17 @@ typedef struct wo_left_out {
 
 #define WO_LEFT_OUT_MAX 16
 
+/* An attribute of the picture's metadata that speaks of the camera. */
+typedef struct wo_camera_use {
+    const char *key; /* of the parameter that it replaces; "" = refused. Constant texts. */
+    double value;    /* in unit */
+    const char *unit;
+    const char *why; /* it is not used; "" = it is */
+    char name[WO_CAMERA_NAME_SIZE];
+} wo_camera_use;
+
+#define WO_CAMERA_USES_MAX (WO_CAMERA_VALUES + WO_CAMERA_REFUSALS_MAX)
+
 /* What a render did and what it cost. Plain data, filled by the core, owned by the caller. */
 typedef struct wo_report {
     double seconds[WO_STAGE_COUNT]; /* wall clock */
@@ -66,6 +77,8 @@ typedef struct wo_report {
     double largest_radius;    /* largest circle of confusion drawn, px, radius */
     int left_out_count;
     wo_left_out left_out[WO_LEFT_OUT_MAX];
+    int camera_count;
+    wo_camera_use camera[WO_CAMERA_USES_MAX];
 } wo_report;
 
 const char *wo_stage_text(wo_stage stage);
@@ -75,7 +88,13 @@ const char *wo_tile_class_text(wo_tile_class tile);
 void wo_report_leave_out(wo_report *report, const char *what, const char *why, double amount,
                          const char *unit);
 
-/* Adds the counters of part to total (several windows of one picture). */
+/* Notes an attribute of the camera; beyond WO_CAMERA_USES_MAX, or without a report, it is dropped.
+   name is copied. */
+void wo_report_camera(wo_report *report, const char *key, double value, const char *unit,
+                      const char *name, const char *why);
+
+/* Adds the counters of part to total (several windows of one picture). The camera is that of the
+   first part that has one. */
 void wo_report_add(wo_report *total, const wo_report *part);
 
 /* One JSON object, always complete and valid; what is not finite becomes null, and when it does not

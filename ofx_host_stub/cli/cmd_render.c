@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
 #include "picture_file.h"
+#include "render_camera.h"
 #include "render_job.h"
 #include "session.h"
 
@@ -45,8 +46,8 @@ static const wo_option options[] = {
     {"--bits", NULL, "KIND",
      "Samples of the output: auto, 8, 16, half or float; auto is half in EXR.", false},
     {"--no-metadata", NULL, NULL,
-     "Do not take focalLength, sensorWidth, fStop and focusDistance from the wideopen: attributes "
-     "of Source. What --set says always wins.",
+     "Keep the metadata of the files from the plugin. Otherwise it takes the camera from them "
+     "(cameraFrom is metadata unless --set says otherwise). What --set says always wins.",
      false},
     {"--explain", NULL, NULL, "Print what would be done, on stdout, and render nothing.", false},
     {"--report", NULL, "FILE", "Write what was done and what it cost, as JSON.", false},
@@ -285,6 +286,8 @@ static int open_files(wo_render_job *job)
         return wo_usage_fault("render", "--out-space: %s", error.text);
     if (wo_inputs_create(job->colour, in_space, &job->inputs, &error) != WO_OK)
         return wo_failure(&error);
+    wo_camera_own(job->args, job->own, sizeof job->own);
+    wo_inputs_pass_metadata(job->inputs, job->metadata ? job->own : NULL);
     if (!job->explain && wo_output_check(&job->output, job->frames.first, &error) != WO_OK)
         return wo_failure(&error);
     return add_clips(job);
@@ -469,6 +472,7 @@ static int run(wo_render_job *job)
         if (code != WO_EXIT_OK)
             return code;
     }
+    wo_camera_choose(job);
     return render_all(job);
 }
 

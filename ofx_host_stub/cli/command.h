@@ -27,6 +27,7 @@ int wo_cmd_render(int argc, char **argv);
 int wo_cmd_footage(int argc, char **argv);
 int wo_cmd_lens(int argc, char **argv);
 int wo_cmd_compare(int argc, char **argv);
+int wo_cmd_bench(int argc, char **argv);
 int wo_cmd_sheet(int argc, char **argv);
 int wo_cmd_json(int argc, char **argv);
 

@@ -13,6 +13,7 @@ static const wo_command commands[] = {
     {"footage", "make test scenes with depth, layers and a lens reference", wo_cmd_footage},
     {"lens", "what a lens is: data, section, aberrations, bokeh", wo_cmd_lens},
     {"compare", "how far one picture is from another", wo_cmd_compare},
+    {"bench", "error against run time of every method", wo_cmd_bench},
     {"sheet", "put pictures side by side under captions", wo_cmd_sheet},
     {"json", "check a JSON file and print values from it", wo_cmd_json},
 };

@@ -33,6 +33,54 @@ static void sane_range(double *low, double *high)
     }
 }
 
+static void sane_log_range(double *low, double *high)
+{
+    *low = isfinite(*low) && *low >= 1e-100 ? fmin(*low, 1e100) : 1e-3;
+    *high = isfinite(*high) && *high >= 1e-100 ? fmin(*high, 1e100) : *low * 10;
+    if (*high < *low * 1.001) {
+        *high = *low * 1.5;
+        *low /= 1.5;
+    }
+}
+
+/* First digits of the ticks of a decade; the coarse ones are among the fine ones. */
+typedef struct log_digits {
+    int count;
+    double digit[10];
+} log_digits;
+static const log_digits coarse = {3, {1, 2, 5}};
+static const log_digits fine = {10, {1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9}};
+
+/* The n-th of ..., 0.5, 1, 2, 5, 10, ...; 0 is 1. */
+static double log_tick(const log_digits *set, int n)
+{
+    const int power = n >= 0 ? n / set->count : -((set->count - 1 - n) / set->count);
+    return set->digit[n - set->count * power] * pow(10, power);
+}
+
+/* The last one up to value. */
+static int log_tick_below(const log_digits *set, double value)
+{
+    int n = set->count * (int)floor(log10(value)) - 1;
+    while (log_tick(set, n + 1) <= value * (1 + 1e-9))
+        n++;
+    return n;
+}
+
+void wo_ticks_make_log(double low, double high, wo_ticks *ticks)
+{
+    *ticks = (wo_ticks){0};
+    sane_log_range(&low, &high);
+    const double decades = log10(high / low);
+    const log_digits *const set = decades <= 1.0001 ? &fine : &coarse;
+    const int stride = decades <= 5 ? 1 : 3 * (1 + (int)(decades / 10));
+    int n = log_tick_below(set, low * (1 - 1e-6)) + 1;
+    while (n % stride != 0)
+        n++;
+    for (; ticks->count < WO_TICKS_MAX && log_tick(set, n) <= high * (1 + 1e-6); n += stride)
+        ticks->value[ticks->count++] = log_tick(set, n);
+}
+
 void wo_ticks_make(double low, double high, int wanted, wo_ticks *ticks)
 {
     *ticks = (wo_ticks){0};
@@ -100,7 +148,7 @@ char *wo_plot_number(char *text, size_t size, double value, int decimals)
 void wo_axis_cover(wo_axis *axis, const double *values, int count)
 {
     for (int i = 0; i < count; i++) {
-        if (!isfinite(values[i]))
+        if (!isfinite(values[i]) || (axis->log && values[i] <= 0))
             continue;
         const bool empty = axis->low > axis->high;
         axis->low = empty ? values[i] : fmin(axis->low, values[i]);
@@ -119,6 +167,13 @@ void wo_axis_round(wo_axis *axis)
     if (axis->low > axis->high) {
         axis->low = 0;
         axis->high = 1;
+    }
+    if (axis->log) {
+        sane_log_range(&axis->low, &axis->high);
+        const log_digits *const set = axis->high <= 4 * axis->low ? &fine : &coarse;
+        axis->low = log_tick(set, log_tick_below(set, axis->low));
+        axis->high = log_tick(set, log_tick_below(set, axis->high * (1 - 1e-6)) + 1);
+        return;
     }
     sane_range(&axis->low, &axis->high);
     for (int i = 0; i < 4; i++) { /* a wider range may have coarser ticks */
@@ -139,6 +194,8 @@ void wo_axis_widen(wo_axis *axis, double least)
 
 static double along(const wo_axis *axis, double value)
 {
+    if (axis->log)
+        return value > 0 ? log(value / axis->low) / log(axis->high / axis->low) : NAN;
     return (value - axis->low) / (axis->high - axis->low);
 }
 
@@ -152,19 +209,38 @@ double wo_plot_y(const wo_plot *plot, double y)
     return plot->box.y + (1 - along(&plot->y, y)) * plot->box.h;
 }
 
+static void axis_ticks(const wo_axis *axis, wo_ticks *ticks)
+{
+    if (axis->log)
+        wo_ticks_make_log(axis->low, axis->high, ticks);
+    else
+        wo_ticks_make(axis->low, axis->high, wanted_ticks(axis), ticks);
+}
+
+static char *tick_text(const wo_axis *axis, const wo_ticks *ticks, int i, char *text, size_t size)
+{
+    int decimals = ticks->decimals;
+    if (axis->log) {
+        const int power = (int)floor(log10(ticks->value[i]) + 1e-6);
+        const bool half = fabs(ticks->value[i] / pow(10, power) - 1.5) < 1e-6;
+        decimals = power < -6 || power > 6 ? -1 : power < half ? half - power : 0;
+    }
+    return wo_plot_number(text, size, ticks->value[i], decimals);
+}
+
 static void draw_x_axis(const wo_plot *plot)
 {
     const wo_box b = plot->box;
     const double bottom = b.y + b.h;
     wo_ticks ticks;
     char text[32];
-    wo_ticks_make(plot->x.low, plot->x.high, wanted_ticks(&plot->x), &ticks);
+    axis_ticks(&plot->x, &ticks);
     for (int i = 0; i < ticks.count; i++) {
         const double at = wo_plot_x(plot, ticks.value[i]);
         wo_svg_line(plot->svg, ticks.value[i] == 0 ? &zero_pen : &grid_pen, at, b.y, at, bottom);
         wo_svg_line(plot->svg, &frame_pen, at, bottom, at, bottom + 4);
-        wo_plot_number(text, sizeof text, ticks.value[i], ticks.decimals);
-        wo_svg_text(plot->svg, at, bottom + 16, 11, WO_ANCHOR_MIDDLE, false, text);
+        wo_svg_text(plot->svg, at, bottom + 16, 11, WO_ANCHOR_MIDDLE, false,
+                    tick_text(&plot->x, &ticks, i, text, sizeof text));
     }
     wo_svg_text(plot->svg, b.x + b.w / 2, bottom + 32, 12, WO_ANCHOR_MIDDLE, false, plot->x.label);
 }
@@ -174,23 +250,31 @@ static void draw_y_axis(const wo_plot *plot)
     const wo_box b = plot->box;
     wo_ticks ticks;
     char text[32];
-    wo_ticks_make(plot->y.low, plot->y.high, wanted_ticks(&plot->y), &ticks);
+    axis_ticks(&plot->y, &ticks);
     for (int i = 0; i < ticks.count; i++) {
         const double at = wo_plot_y(plot, ticks.value[i]);
         wo_svg_line(plot->svg, ticks.value[i] == 0 ? &zero_pen : &grid_pen, b.x, at, b.x + b.w, at);
         wo_svg_line(plot->svg, &frame_pen, b.x - 4, at, b.x, at);
-        wo_plot_number(text, sizeof text, ticks.value[i], ticks.decimals);
-        wo_svg_text(plot->svg, b.x - 7, at + 4, 11, WO_ANCHOR_END, false, text);
+        wo_svg_text(plot->svg, b.x - 7, at + 4, 11, WO_ANCHOR_END, false,
+                    tick_text(&plot->y, &ticks, i, text, sizeof text));
     }
     wo_svg_text_up(plot->svg, b.x - 42, b.y + b.h / 2, 12, WO_ANCHOR_MIDDLE, plot->y.label);
+}
+
+static void sane_axis(wo_axis *axis)
+{
+    if (axis->log)
+        sane_log_range(&axis->low, &axis->high);
+    else
+        sane_range(&axis->low, &axis->high);
 }
 
 wo_plot wo_plot_begin(wo_svg *svg, wo_box box, const char *title, wo_axis x, wo_axis y)
 {
     const double left = y.label ? 58 : 12, below = x.label ? 42 : 12;
     wo_plot plot = {svg, {box.x + left, box.y + 30, box.w - left - 16, box.h - 30 - below}, x, y};
-    sane_range(&plot.x.low, &plot.x.high);
-    sane_range(&plot.y.low, &plot.y.high);
+    sane_axis(&plot.x);
+    sane_axis(&plot.y);
     if (title)
         wo_svg_text(svg, box.x + 12, box.y + 18, 13, WO_ANCHOR_START, true, title);
     if (x.label)

@@ -20,17 +20,23 @@ typedef struct wo_ticks {
    that are empty, reversed or no numbers are taken for something near. */
 void wo_ticks_make(double low, double high, int wanted, wo_ticks *ticks);
 
+/* 1, 2 and 5 times powers of ten; more of them up to one decade, powers of ten alone beyond five.
+   low and high above zero, others are taken for something near. There may be none in a range of
+   less than a factor 1.5. step and decimals mean nothing here. */
+void wo_ticks_make_log(double low, double high, wo_ticks *ticks);
+
 /* Text of a number, with a point in every locale; decimals as in wo_ticks. Returns text. */
 char *wo_plot_number(char *text, size_t size, double value, int decimals);
 
 typedef struct wo_axis {
     double low, high;
     const char *label; /* with its unit; NULL = no ticks either */
-    int ticks;         /* about so many; 0 = 5 */
+    int ticks;         /* about so many; 0 = 5; not of a logarithmic axis */
+    bool log;          /* logarithmic: what is not above zero cannot be shown */
 } wo_axis;
 
 /* Makes the axis cover the values, as far as they are finite, then round: low and high come to lie
-   on ticks. An axis with low > high is empty. */
+   on ticks. An axis with low > high is empty; on a logarithmic one zero and less do not count. */
 void wo_axis_cover(wo_axis *axis, const double *values, int count);
 void wo_axis_round(wo_axis *axis);
 /* At least so long, about the same middle. */

@@ -47,6 +47,7 @@ typedef struct open_file {
 struct wo_inputs {
     wo_colour *colour;
     const char *in_space;
+    const char *own;      /* parameters set by hand; NULL = no metadata is passed on */
     pthread_mutex_t lock; /* guards all below once a render runs */
     wo_input *clips[WO_INPUTS_MAX];
     size_t count;
@@ -354,6 +355,53 @@ const wo_io_part *wo_input_header(const wo_input *input)
     return &input->present->file->parts[input->present->part];
 }
 
+/* ---------------------------------------------------------------------------------- the metadata
+ */
+
+enum { NUMBER_SIZE = 40 };
+
+/* The shortest number that is the same in the file: a float of 1.4 is 1.39999998 as a double. */
+static const char *attribute_text(const wo_io_attribute *attribute, char number[NUMBER_SIZE])
+{
+    const double value = attribute->number;
+    const bool single = !strcmp(attribute->kind, "");
+    if (attribute->type == WO_IO_TEXT)
+        return attribute->text;
+    if (attribute->type == WO_IO_INT) {
+        snprintf(number, NUMBER_SIZE, "%.0f", value);
+        return number;
+    }
+    for (int digits = 6; digits <= 17; digits++) {
+        snprintf(number, NUMBER_SIZE, "%.*g", digits, value);
+        const double back = strtod(number, NULL);
+        if (back == value || (single && (float)back == (float)value))
+            break;
+    }
+    return number;
+}
+
+static void give_metadata(const wo_input *input, const picture *p, wo_host_add_metadata *add,
+                          void *to)
+{
+    const wo_io_part *const part = &p->file->parts[p->part];
+    char number[NUMBER_SIZE];
+    if (!input->inputs->own)
+        return;
+    for (size_t i = 0; i < part->attribute_count; i++)
+        add(to, part->attributes[i].name, attribute_text(&part->attributes[i], number));
+    add(to, "wideopen:own", input->inputs->own);
+}
+
+void wo_inputs_pass_metadata(wo_inputs *inputs, const char *own)
+{
+    inputs->own = own;
+}
+
+void wo_input_metadata(const wo_input *input, wo_host_add_metadata *add, void *to)
+{
+    give_metadata(input, input->present, add, to);
+}
+
 /* ------------------------------------------------------------------------------ the host's side */
 
 static double aspect_of(const picture *p)
@@ -404,6 +452,19 @@ static wo_status host_pixels(void *user, const wo_host_request *request, const w
     return status;
 }
 
+static wo_status host_metadata(void *user, double time, wo_host_add_metadata *add, void *to,
+                               wo_error *error)
+{
+    wo_input *const input = user;
+    picture *p;
+    pthread_mutex_lock(&input->inputs->lock);
+    const wo_status status = picture_at(input, time, &p, error);
+    if (status == WO_OK)
+        give_metadata(input, p, add, to);
+    pthread_mutex_unlock(&input->inputs->lock);
+    return status;
+}
+
 wo_host_source wo_input_source(wo_input *input, int first, int last)
 {
     wo_host_source source = WO_HOST_SOURCE_INIT;
@@ -419,5 +480,6 @@ wo_host_source wo_input_source(wo_input *input, int first, int last)
         source.colourspace = input->raw ? WO_OFX_SPACE_RAW : WO_OFX_SPACE_WORKING;
     source.region = host_region;
     source.pixels = host_pixels;
+    source.metadata = host_metadata;
     return source;
 }

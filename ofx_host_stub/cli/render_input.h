@@ -52,6 +52,13 @@ void wo_input_set_raw(wo_input *input, bool raw); /* before wo_inputs_prepare */
    the next wo_inputs_prepare. */
 const wo_io_part *wo_input_header(const wo_input *input);
 
+/* Lets plugins see the attributes of the files, and "wideopen:own" = own (borrowed until
+   wo_inputs_destroy); NULL, as at first: they see nothing. */
+void wo_inputs_pass_metadata(wo_inputs *inputs, const char *own);
+
+/* The attributes that plugins see of the present picture, one after the other. */
+void wo_input_metadata(const wo_input *input, wo_host_add_metadata *add, void *to);
+
 /* The clip as a source; valid as long as inputs live. first and last are the frames of the
    render. */
 wo_host_source wo_input_source(wo_input *input, int first, int last);

@@ -2,6 +2,8 @@
 /* Copyright the WideOpen authors */
 #include "render_job.h"
 
+#include "render_camera.h"
+
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -32,64 +34,6 @@ static void publish(void *user, const char *kind, const char *text)
 {
     if (!wo_record_publish(user, kind, text))
         wo_message("out of memory: a report of the plugin is lost");
-}
-
-/* --------------------------------------------------------------------------- the camera's facts */
-
-static bool is_set_by_user(const wo_args *args, const wo_host_param_info *param)
-{
-    for (int i = 0; i < wo_args_count(args, "--set"); i++) {
-        const char *const text = wo_args_value(args, "--set", i);
-        const size_t length = strcspn(text, "=@");
-        if ((strlen(param->name) == length && strncmp(text, param->name, length) == 0) ||
-            (strlen(param->script_name) == length &&
-             strncmp(text, param->script_name, length) == 0))
-            return true;
-    }
-    return false;
-}
-
-/* Facts are stored as 32-bit floats: 1.4 comes as 1.39999998. Gives the shortest number that is the
-   same float. */
-static double tidy(double number)
-{
-    const float exact = (float)number;
-    for (int digits = 6; exact == number && digits < 9; digits++) {
-        char text[32];
-        snprintf(text, sizeof text, "%.*g", digits, number);
-        const double shorter = strtod(text, NULL);
-        if ((float)shorter == exact)
-            return shorter;
-    }
-    return number;
-}
-
-/* Gives the plugin's camera parameters the values that Source's file names; says so for the first
-   frame. A value the plugin refuses is left out, with its reason. */
-static void apply_metadata(wo_render_job *job, const wo_input *source)
-{
-    static const char *const names[] = {"focalLength", "sensorWidth", "fStop", "focusDistance"};
-    char taken[256] = "";
-    size_t used = 0;
-    for (size_t i = 0; i < WO_COUNT(names); i++) {
-        char key[64];
-        snprintf(key, sizeof key, "wideopen:%s", names[i]);
-        const wo_io_attribute *const fact = wo_io_part_find(wo_input_header(source), key);
-        const wo_host_param_info *const param = wo_host_find_param(job->context, names[i]);
-        if (!fact || fact->type == WO_IO_TEXT || !param || param->dimension != 1 ||
-            is_set_by_user(job->args, param))
-            continue;
-        wo_error error = {0};
-        const double number = tidy(fact->number);
-        if (wo_host_param_set(job->instance, param->name, &number, 1, &error) != WO_OK)
-            wo_message("%s of %s is not used: %s", key, wo_input_file(source), error.text);
-        else if (used < sizeof taken)
-            used += (size_t)snprintf(taken + used, sizeof taken - used, "%s%s %g", used ? ", " : "",
-                                     names[i], number);
-    }
-    if (used > 0 && job->frame_index == 0)
-        wo_message("camera of %s: %s (--no-metadata leaves it alone)", wo_input_file(source),
-                   taken);
 }
 
 /* ------------------------------------------------------------------------------------ one frame */
@@ -206,9 +150,8 @@ static wo_status render_frame(wo_render_job *job, wo_frame_record *frame, wo_err
 {
     const double start = wo_seconds();
     WO_TRY(wo_inputs_prepare(job->inputs, frame->frame, error));
-    const wo_input *const source = wo_inputs_find(job->inputs, "Source");
-    if (source && job->metadata)
-        apply_metadata(job, source);
+    if (job->frame_index == 0)
+        wo_camera_tell(job);
     if (job->frame_index == 0 && !wo_record_begin(&job->record, job->instance, frame->frame))
         return wo_fail(error, WO_ERR_NOMEM, "out of memory for the report");
     frame->read_seconds = wo_seconds() - start + job->opening_seconds;

@@ -21,7 +21,8 @@ typedef struct wo_render_job {
     wo_rect project; /* display window at full size, pixels */
     double pixel_aspect;
     bool explain;
-    bool metadata; /* take the camera from Source's file */
+    bool metadata; /* plugins see the attributes of the files */
+    char own[128]; /* parameters of the camera that --set names */
 
     wo_host *host;
     const wo_host_plugin *plugin;

@@ -340,6 +340,8 @@ typedef struct wo_host_request {
     wo_rect region;          /* pixels wanted, at that scale: the bounds of the image to fill */
 } wo_host_request;
 
+typedef void wo_host_add_metadata(void *to, const char *name, const char *value);
+
 /* Where a clip's pixels come from. The struct is copied; user and the callbacks must stay valid
    until the clip gets another source or the instance is destroyed. */
 typedef struct wo_host_source {
@@ -362,6 +364,12 @@ typedef struct wo_host_source {
        text. Any thread, also several at once. */
     wo_status (*pixels)(void *user, const wo_host_request *request, const wo_image *image,
                         wo_error *error);
+
+    /* NULL, or what is known of the picture at this time: calls add(to, name, value) for each
+       attribute; the texts are copied. Plugins get them as wideopen/ofx_camera.h says. On the
+       thread that asks for a region or a render, before the plugin is. */
+    wo_status (*metadata)(void *user, double time, wo_host_add_metadata *add, void *to,
+                          wo_error *error);
 } wo_host_source;
 
 #define WO_HOST_SOURCE_INIT                                                                        \

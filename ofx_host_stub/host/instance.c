@@ -299,6 +299,7 @@ wo_status wo_host_set_clip(wo_host_instance *instance, const char *clip,
     port->colourspace = colourspace;
     port->identity = identity;
     port->connected = source != NULL;
+    port->has_metadata = false;
     port->source = source ? *source : (wo_host_source){0};
     port->source.colourspace = colourspace;
     port->source.identity = identity;

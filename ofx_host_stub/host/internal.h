@@ -303,6 +303,8 @@ typedef struct wo_port { /* a clip of a descriptor or an instance */
     int32_t components; /* as the plugin gets them */
     wo_texts wishes;    /* colourspaces */
     char *carries;      /* colourspace now, "" = unset */
+    bool has_metadata;  /* props hold that of metadata_time */
+    double metadata_time;
 } wo_port;
 
 struct wo_object { /* an effect: descriptor, descriptor in a context, or instance */

@@ -2,6 +2,8 @@
 /* Copyright the WideOpen authors */
 #include "internal.h"
 
+#include "wideopen/ofx_camera.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -112,6 +114,51 @@ void wo_arguments(wo_props *in, wo_props *out, wo_host_instance *instance, doubl
     wo_props_set_double(in, kOfxImageEffectPropRenderScale, 1, scale[1]);
 }
 
+/* ------------------------------------------------------------------------------------- metadata */
+
+static void add_metadata(void *to, const char *name, const char *value)
+{
+    wo_props *props = to;
+    const int count = wo_props_count(props, kWideOpenClipPropMetadataNames);
+    wo_props_set_text(props, kWideOpenClipPropMetadataNames, count, name);
+    wo_props_set_text(props, kWideOpenClipPropMetadataValues, count, value);
+}
+
+static wo_status read_metadata(wo_port *port, double time, wo_error *error)
+{
+    static const char *const names[] = {kWideOpenClipPropMetadataNames,
+                                        kWideOpenClipPropMetadataValues};
+    bool ok = true;
+    for (size_t i = 0; i < WO_COUNT(names); i++) {
+        wo_prop *prop = wo_props_find(&port->props, names[i]);
+        ok = ok && prop && wo_prop_resize(prop, 0);
+    }
+    wo_status status = WO_OK;
+    if (ok && port->connected && port->source.metadata)
+        status = port->source.metadata(port->source.user, time, add_metadata, &port->props, error);
+    if (!ok || port->props.failed) {
+        port->props.failed = false;
+        return wo_fail(error, WO_ERR_NOMEM, "no memory for the metadata of %.60s", port->name);
+    }
+    return status == WO_ERR_NOT_FOUND ? WO_OK : status; /* no picture at this time */
+}
+
+/* Everything a plugin may look at before the pixels of a time. */
+static wo_status prepare_at(wo_host_instance *instance, double time, wo_error *error)
+{
+    WO_TRY(wo_prepare(instance, error));
+    for (size_t i = 0; i < instance->object.port_count; i++) {
+        wo_port *port = instance->object.ports[i];
+        if (port->output || (port->has_metadata && port->metadata_time == time))
+            continue;
+        port->has_metadata = false;
+        WO_TRY(read_metadata(port, time, error));
+        port->has_metadata = true;
+        port->metadata_time = time;
+    }
+    return WO_OK;
+}
+
 /* --------------------------------------------------------------- region, needed, frames, domain */
 
 static wo_status default_region(wo_host_instance *instance, double time, wo_host_region *region,
@@ -161,7 +208,7 @@ wo_status wo_host_get_region(wo_host_instance *instance, double time, double sca
     if (pixels)
         *pixels = (wo_rect){0, 0, 0, 0};
     WO_TRY(check_scale(scale_x, scale_y, time, error));
-    WO_TRY(wo_prepare(instance, error));
+    WO_TRY(prepare_at(instance, time, error));
     WO_TRY(default_region(instance, time, &usual, error));
     wo_arguments(&in, &out, instance, time, scale);
     wo_props_add_one(&out, kOfxImageEffectPropRegionOfDefinition, WO_PROP_DOUBLE, 4, true);
@@ -196,7 +243,7 @@ wo_status wo_host_get_needed(wo_host_instance *instance, double time, double sca
         return wo_fail(error, WO_ERR_ARGUMENT, "there are %zu clips, not %zu",
                        instance->object.port_count, count);
     WO_TRY(check_scale(scale_x, scale_y, time, error));
-    WO_TRY(wo_prepare(instance, error));
+    WO_TRY(prepare_at(instance, time, error));
     wo_arguments(&in, &out, instance, time, scale);
     wo_props_add_one(&in, kOfxImageEffectPropRegionOfInterest, WO_PROP_DOUBLE, 4, false);
     set_region(&in, kOfxImageEffectPropRegionOfInterest, region);

@@ -3,6 +3,7 @@
 #include "internal.h"
 
 #include "wideopen/base.h"
+#include "wideopen/ofx_camera.h"
 
 #include <float.h>
 #include <limits.h>
@@ -192,6 +193,8 @@ static const wo_prop_row clip_instance_rows[] = {
     DOUBLE_R(kOfxImageEffectPropUnmappedFrameRange, 2, 0),
     DOUBLE_R(kOfxImageEffectPropUnmappedFrameRate, 1, 0),
     INT_R(kOfxImageClipPropContinuousSamples, 1, 0),
+    TEXT_R(kWideOpenClipPropMetadataNames, 0, NULL),
+    TEXT_R(kWideOpenClipPropMetadataValues, 0, NULL),
 };
 
 static const wo_prop_row image_rows[] = {

@@ -6,3 +6,23 @@ add_test(NAME contract.cli
             ${CMAKE_CURRENT_BINARY_DIR}/cli_work)
 set_tests_properties(contract.cli PROPERTIES LABELS threads TIMEOUT 600
     ENVIRONMENT "TSAN_OPTIONS=suppressions=${CMAKE_CURRENT_LIST_DIR}/cli_tsan.supp")
+
+# Error against time, with a plugin that pretends.
+set(tricks_bundles ${CMAKE_BINARY_DIR}/tests/tricks)
+wo_add_ofx_plugin(Tricks ${CMAKE_CURRENT_LIST_DIR}/plugins/tricks_plugin.c
+    CORE wo_base DIRECTORY ${tricks_bundles} NO_INSTALL)
+add_test(NAME contract.bench
+    COMMAND ${CMAKE_CURRENT_LIST_DIR}/bench.sh $<TARGET_FILE:wideopen> $<TARGET_FILE:json_check>
+            ${CMAKE_CURRENT_BINARY_DIR}/bench_work ${tricks_bundles})
+set_tests_properties(contract.bench PROPERTIES LABELS threads TIMEOUT 600
+    ENVIRONMENT "TSAN_OPTIONS=suppressions=${CMAKE_CURRENT_LIST_DIR}/cli_tsan.supp")
+
+# The camera of a file's metadata, from the file to the plugin.
+add_executable(exr_tag ${CMAKE_CURRENT_LIST_DIR}/exr_tag.c)
+target_include_directories(exr_tag PRIVATE ${PROJECT_SOURCE_DIR}/ofx_host_stub)
+target_link_libraries(exr_tag PRIVATE wo_bridge wo_base wo_options m)
+add_test(NAME contract.camera
+    COMMAND ${CMAKE_CURRENT_LIST_DIR}/camera.sh $<TARGET_FILE:wideopen> $<TARGET_FILE:exr_tag>
+            ${CMAKE_CURRENT_BINARY_DIR}/camera_work)
+set_tests_properties(contract.camera PROPERTIES LABELS threads TIMEOUT 600
+    ENVIRONMENT "TSAN_OPTIONS=suppressions=${CMAKE_CURRENT_LIST_DIR}/cli_tsan.supp")

@@ -230,6 +230,7 @@ void expect_defaults(expected *e)
                                 .extent = mock.pictures[0].bounds,
                                 .render_scale = 1,
                                 .pixel_stretch = 1,
+                                .pixel_aspect = 1,
                                 .connected = {true}};
 }
 

@@ -10,6 +10,8 @@
 
 #include <pthread.h>
 
+#include "ofx/ofxDrawSuite.h"
+#include "ofx/ofxInteract.h"
 #include "ofx/ofxMemory.h"
 #include "ofx/ofxMessage.h"
 #include "ofx/ofxProgress.h"
@@ -282,6 +284,10 @@ const void *mock_suite(const char *name, int version)
                                       : flags & MOCK_HOLLOW_PROGRESS
                                           ? (const void *)&hollow_progress
                                           : (const void *)&progress2);
+    if (strcmp(name, kOfxInteractSuite) == 0 && version == 1)
+        return pick(MOCK_NO_INTERACT, mock_interact_suite());
+    if (strcmp(name, kOfxDrawSuite) == 0 && version == 1)
+        return pick(MOCK_NO_DRAW, mock_draw_suite(flags & MOCK_HOLLOW_DRAW));
     if (strcmp(name, kWideOpenReportSuite) == 0 && version == 1)
         return pick(MOCK_NO_REPORT, &report_suite);
     return NULL;

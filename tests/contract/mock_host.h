@@ -6,6 +6,7 @@
 #include "ofx/ofxImageEffect.h"
 #include "ofx/ofxMultiThread.h"
 #include "wideopen/image.h"
+#include "wideopen/ofx_camera.h"
 #include "wideopen/ofx_report.h"
 
 /* A host that does what real hosts do and should not: lacks suites, half fills them, hands out
@@ -24,8 +25,13 @@ enum {
     MOCK_HOLLOW_MESSAGE2 = 256, /* suites whose members are NULL */
     MOCK_HOLLOW_THREADS = 512,
     MOCK_HOLLOW_PROGRESS = 1024,
-    MOCK_HOLLOW_EFFECT = 2048,   /* abort and image memory only */
-    MOCK_NO_INSTANCE_DATA = 4096 /* kOfxPropInstanceData cannot be kept */
+    MOCK_HOLLOW_EFFECT = 2048,    /* abort and image memory only */
+    MOCK_NO_INSTANCE_DATA = 4096, /* kOfxPropInstanceData cannot be kept */
+    MOCK_OVERLAYS = 8192,         /* it says that it supports them */
+    MOCK_NO_INTERACT = 16384,
+    MOCK_NO_DRAW = 32768,
+    MOCK_HOLLOW_DRAW = 65536,
+    MOCK_READ_ONLY = 131072 /* no function that sets parameters */
 };
 
 enum { MOCK_OUTPUT = 4, MOCK_CLIPS };
@@ -46,13 +52,14 @@ typedef struct mock_picture {
     int row_bytes;
     const char *depth;
     const char *components;
-    const char *alpha; /* NULL: the image does not say */
-    OfxRectD region;   /* of definition, canonical; all 0 = bounds */
-    wo_rect defined;   /* what the image says of it, in pixels, if not empty */
-    wo_rect first;     /* if not empty: what is given unless a region is named */
-    bool silent;       /* clipGetImage fails */
-    bool starved;      /* clipGetImage has no memory */
-    bool connected;    /* what the clip says */
+    const char *alpha;                /* NULL: the image does not say */
+    OfxRectD region;                  /* of definition, canonical; all 0 = bounds */
+    wo_rect defined;                  /* what the image says of it, in pixels, if not empty */
+    wo_rect first;                    /* if not empty: what is given unless a region is named */
+    bool silent;                      /* clipGetImage fails */
+    bool starved;                     /* clipGetImage has no memory */
+    bool connected;                   /* what the clip says */
+    const char *names[3], *values[3]; /* of its metadata; NULL: not said */
 } mock_picture;
 
 typedef struct mock_state {
@@ -79,6 +86,8 @@ typedef struct mock_state {
     int progress_starts, progress_updates, progress_ends;
     double progress_last;
     char published[4096], kind[16];
+    int values_set, edits_begun, edits_ended; /* of parameters */
+    char edit[64];
 } mock_state;
 
 extern mock_state mock;
@@ -96,6 +105,7 @@ void mock_destroy(OfxPlugin *plugin, OfxImageEffectHandle effect);
 
 /* Value of a parameter; false if there is none. */
 bool mock_set_number(OfxImageEffectHandle effect, const char *name, double x, double y, double z);
+bool mock_get_number(OfxImageEffectHandle effect, const char *name, double values[3]);
 bool mock_set_text(OfxImageEffectHandle effect, const char *name, const char *text);
 
 /* Property of the instance; a count of 0 takes it away. */
@@ -116,6 +126,9 @@ OfxStatus mock_needed(OfxPlugin *plugin, OfxImageEffectHandle effect, OfxRectD r
 /* Text of a property of the descriptor of a parameter (or "" for the effect), or NULL. */
 const char *mock_param_text(OfxImageEffectHandle effect, const char *param, const char *property,
                             int index);
+
+/* Pointer property of the effect, or NULL. */
+void *mock_effect_pointer(OfxImageEffectHandle effect, const char *property);
 
 /* Number a property of a clip's descriptor has; -1 if there is none. */
 int mock_clip_number(OfxImageEffectHandle effect, const char *clip, const char *property);

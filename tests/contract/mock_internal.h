@@ -5,13 +5,47 @@
 
 #include "mock_host.h"
 
-/* mock_host.c: suites without objects. mock_objects.c: property sets, parameters, clips, actions.
- */
+/* mock_host.c: suites without objects. mock_props.c: property sets. mock_objects.c: parameters,
+   clips, actions. mock_overlay.c: interacts and what they draw. */
+
+enum { PROPS_MAX = 64, VALUES_MAX = 24 };
+
+typedef struct prop {
+    char name[80];
+    char type; /* 'i', 'd', 's', 'p' */
+    int count;
+    union {
+        int i;
+        double d;
+        char *s;
+        void *p;
+    } values[VALUES_MAX];
+} prop;
+
+struct OfxPropertySetStruct {
+    prop items[PROPS_MAX];
+    int count;
+};
+
+OfxPropertySetHandle set_new(void);
+void set_free(OfxPropertySetHandle set);
+prop *prop_find(OfxPropertySetHandle set, const char *name); /* NULL: there is none */
+void prop_clear(prop *p);
+OfxStatus put_int(OfxPropertySetHandle set, const char *name, int index, int value);
+OfxStatus put_double(OfxPropertySetHandle set, const char *name, int index, double value);
+OfxStatus put_text(OfxPropertySetHandle set, const char *name, int index, const char *value);
+OfxStatus put_pointer(OfxPropertySetHandle set, const char *name, int index, void *value);
+OfxStatus get_int(OfxPropertySetHandle set, const char *name, int index, int *value);
+OfxStatus get_double(OfxPropertySetHandle set, const char *name, int index, double *value);
+OfxStatus get_text(OfxPropertySetHandle set, const char *name, int index, char **value);
+OfxStatus get_pointer(OfxPropertySetHandle set, const char *name, int index, void **value);
 
 const void *mock_suite(const char *name, int version);
 const void *mock_property_suite(void);
 const void *mock_param_suite(void);
 const void *mock_effect_suite(bool hollow);
+const void *mock_interact_suite(void);
+const void *mock_draw_suite(bool hollow);
 
 OfxStatus mock_image_alloc(OfxImageEffectHandle effect, size_t bytes, OfxImageMemoryHandle *handle);
 OfxStatus mock_image_free(OfxImageMemoryHandle handle);

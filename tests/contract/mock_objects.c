@@ -3,29 +3,11 @@
 #include "mock_internal.h"
 
 #include <stdarg.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { PROPS_MAX = 64, VALUES_MAX = 24, PARAMS_MAX = 32 };
-
-typedef struct prop {
-    char name[80];
-    char type; /* 'i', 'd', 's', 'p' */
-    int count;
-    union {
-        int i;
-        double d;
-        char *s;
-        void *p;
-    } values[VALUES_MAX];
-} prop;
-
-struct OfxPropertySetStruct {
-    prop items[PROPS_MAX];
-    int count;
-};
+enum { PARAMS_MAX = 32 };
 
 struct OfxParamStruct {
     char name[64], type[32];
@@ -51,169 +33,6 @@ struct OfxImageEffectStruct {
     struct OfxImageClipStruct clips[MOCK_CLIPS];
     int clip_count;
 };
-
-static atomic_int live_sets;
-
-int mock_allocations_of_sets(bool forget)
-{
-    if (forget)
-        atomic_store(&live_sets, 0);
-    return atomic_load(&live_sets);
-}
-
-/* ---- property sets ---- */
-
-static OfxPropertySetHandle set_new(void)
-{
-    atomic_fetch_add(&live_sets, 1);
-    return calloc(1, sizeof(struct OfxPropertySetStruct));
-}
-
-static void prop_clear(prop *p)
-{
-    for (int i = 0; p->type == 's' && i < p->count; i++)
-        free(p->values[i].s);
-    memset(p, 0, sizeof *p);
-}
-
-static void set_free(OfxPropertySetHandle set)
-{
-    if (!set)
-        return;
-    for (int i = 0; i < set->count; i++)
-        prop_clear(&set->items[i]);
-    free(set);
-    atomic_fetch_sub(&live_sets, 1);
-}
-
-static prop *find(OfxPropertySetHandle set, const char *name)
-{
-    for (int i = 0; set && i < set->count; i++)
-        if (strcmp(set->items[i].name, name) == 0)
-            return &set->items[i];
-    return NULL;
-}
-
-static prop *grow(OfxPropertySetHandle set, const char *name, char type, int index)
-{
-    prop *p = find(set, name);
-    if ((mock.forget && strcmp(mock.forget, name) == 0) || index < 0 || index >= VALUES_MAX)
-        return NULL;
-    if (!p && set->count < PROPS_MAX) {
-        p = &set->items[set->count++];
-        snprintf(p->name, sizeof p->name, "%s", name);
-        p->type = type;
-    }
-    if (!p || p->type != type || index > p->count)
-        return NULL;
-    if (index == p->count)
-        p->count++;
-    return p;
-}
-
-static OfxStatus put_int(OfxPropertySetHandle set, const char *name, int index, int value)
-{
-    prop *const p = grow(set, name, 'i', index);
-    if (!p)
-        return kOfxStatErrUnknown;
-    p->values[index].i = value;
-    return kOfxStatOK;
-}
-
-static OfxStatus put_double(OfxPropertySetHandle set, const char *name, int index, double value)
-{
-    prop *const p = grow(set, name, 'd', index);
-    if (!p)
-        return kOfxStatErrUnknown;
-    p->values[index].d = value;
-    return kOfxStatOK;
-}
-
-static OfxStatus put_text(OfxPropertySetHandle set, const char *name, int index, const char *value)
-{
-    prop *const p = grow(set, name, 's', index);
-    if (!p)
-        return kOfxStatErrUnknown;
-    const size_t size = strlen(value) + 1;
-    free(p->values[index].s);
-    p->values[index].s = malloc(size);
-    memcpy(p->values[index].s, value, size);
-    return kOfxStatOK;
-}
-
-static OfxStatus put_pointer(OfxPropertySetHandle set, const char *name, int index, void *value)
-{
-    if ((mock.flags & MOCK_NO_INSTANCE_DATA) && strcmp(name, kOfxPropInstanceData) == 0)
-        return kOfxStatErrUnknown;
-    prop *const p = grow(set, name, 'p', index);
-    if (!p)
-        return kOfxStatErrUnknown;
-    p->values[index].p = value;
-    return kOfxStatOK;
-}
-
-static const prop *look(OfxPropertySetHandle set, const char *name, char type, int index)
-{
-    const prop *const p = find(set, name);
-    if (!p || (mock.forget && strcmp(mock.forget, name) == 0))
-        return NULL;
-    return p->type == type && index >= 0 && index < p->count ? p : NULL;
-}
-
-static OfxStatus get_int(OfxPropertySetHandle set, const char *name, int index, int *value)
-{
-    const prop *const p = look(set, name, 'i', index);
-    if (p)
-        *value = p->values[index].i;
-    return p ? kOfxStatOK : kOfxStatErrUnknown;
-}
-
-static OfxStatus get_double(OfxPropertySetHandle set, const char *name, int index, double *value)
-{
-    const prop *const p = look(set, name, 'd', index);
-    if (p)
-        *value = p->values[index].d;
-    return p ? kOfxStatOK : kOfxStatErrUnknown;
-}
-
-static OfxStatus get_text(OfxPropertySetHandle set, const char *name, int index, char **value)
-{
-    const prop *const p = look(set, name, 's', index);
-    if (p)
-        *value = p->values[index].s;
-    return p ? kOfxStatOK : kOfxStatErrUnknown;
-}
-
-static OfxStatus get_pointer(OfxPropertySetHandle set, const char *name, int index, void **value)
-{
-    const prop *const p = look(set, name, 'p', index);
-    if (p)
-        *value = p->values[index].p;
-    return p ? kOfxStatOK : kOfxStatErrUnknown;
-}
-
-static OfxStatus get_dimension(OfxPropertySetHandle set, const char *name, int *count)
-{
-    const prop *const p = find(set, name);
-    if (p)
-        *count = p->count;
-    return p ? kOfxStatOK : kOfxStatErrUnknown;
-}
-
-/* The vector functions are left out, as some hosts do. */
-const void *mock_property_suite(void)
-{
-    static const OfxPropertySuiteV1 suite = {.propSetPointer = put_pointer,
-                                             .propSetString = put_text,
-                                             .propSetDouble = put_double,
-                                             .propSetInt = put_int,
-                                             .propGetPointer = get_pointer,
-                                             .propGetString = get_text,
-                                             .propGetDouble = get_double,
-                                             .propGetInt = get_int,
-                                             .propGetDimension = get_dimension};
-    return &suite;
-}
 
 /* ---- parameters ---- */
 
@@ -272,12 +91,45 @@ static OfxStatus param_get_at(OfxParamHandle param, OfxTime time, ...)
     return kOfxStatOK;
 }
 
+/* Of all types only points are set by plugins. */
+static OfxStatus param_set(OfxParamHandle param, ...)
+{
+    va_list arguments;
+    if (strcmp(param->type, kOfxParamTypeDouble2D) != 0)
+        return kOfxStatErrUnsupported;
+    va_start(arguments, param);
+    for (int i = 0; i < 2; i++)
+        param->numbers[i] = va_arg(arguments, double);
+    va_end(arguments);
+    mock.values_set++;
+    return kOfxStatOK;
+}
+
+static OfxStatus edit_begin(OfxParamSetHandle set, const char *name)
+{
+    mock.edits_begun++;
+    snprintf(mock.edit, sizeof mock.edit, "%s", name);
+    return set ? kOfxStatOK : kOfxStatErrBadHandle;
+}
+
+static OfxStatus edit_end(OfxParamSetHandle set)
+{
+    mock.edits_ended++;
+    return set ? kOfxStatOK : kOfxStatErrBadHandle;
+}
+
 const void *mock_param_suite(void)
 {
+    static const OfxParameterSuiteV1 read_only = {.paramDefine = param_define,
+                                                  .paramGetHandle = param_get_handle,
+                                                  .paramGetValueAtTime = param_get_at};
     static const OfxParameterSuiteV1 suite = {.paramDefine = param_define,
                                               .paramGetHandle = param_get_handle,
-                                              .paramGetValueAtTime = param_get_at};
-    return &suite;
+                                              .paramGetValueAtTime = param_get_at,
+                                              .paramSetValue = param_set,
+                                              .paramEditBegin = edit_begin,
+                                              .paramEditEnd = edit_end};
+    return mock.flags & MOCK_READ_ONLY ? &read_only : &suite;
 }
 
 bool mock_set_number(OfxImageEffectHandle effect, const char *name, double x, double y, double z)
@@ -285,6 +137,14 @@ bool mock_set_number(OfxImageEffectHandle effect, const char *name, double x, do
     const OfxParamHandle param = find_param(&effect->params, name);
     if (param)
         memcpy(param->numbers, (double[3]){x, y, z}, sizeof param->numbers);
+    return param != NULL;
+}
+
+bool mock_get_number(OfxImageEffectHandle effect, const char *name, double values[3])
+{
+    const OfxParamHandle param = find_param(&effect->params, name);
+    if (param)
+        memcpy(values, param->numbers, sizeof param->numbers);
     return param != NULL;
 }
 
@@ -307,7 +167,7 @@ static void take_defaults(OfxImageEffectHandle effect)
 {
     for (int i = 0; i < effect->params.count; i++) {
         const OfxParamHandle param = &effect->params.items[i];
-        const prop *const initial = find(param->props, kOfxParamPropDefault);
+        const prop *const initial = prop_find(param->props, kOfxParamPropDefault);
         if (initial && initial->type == 's')
             mock_set_text(effect, param->name, initial->values[0].s);
         for (int j = 0; initial && initial->type != 's' && j < initial->count && j < 3; j++)
@@ -320,7 +180,7 @@ const char *mock_param_text(OfxImageEffectHandle effect, const char *param, cons
 {
     static char number[32];
     const OfxParamHandle p = find_param(&effect->params, param);
-    const prop *const it = find(*param ? (p ? p->props : NULL) : effect->props, property);
+    const prop *const it = prop_find(*param ? (p ? p->props : NULL) : effect->props, property);
     if (!it || index >= it->count)
         return NULL;
     if (it->type == 's')
@@ -328,6 +188,13 @@ const char *mock_param_text(OfxImageEffectHandle effect, const char *param, cons
     snprintf(number, sizeof number, "%g",
              it->type == 'i' ? it->values[index].i : it->values[index].d);
     return number;
+}
+
+void *mock_effect_pointer(OfxImageEffectHandle effect, const char *property)
+{
+    void *value = NULL;
+    get_pointer(effect->props, property, 0, &value);
+    return value;
 }
 
 int mock_clip_number(OfxImageEffectHandle effect, const char *clip, const char *property)
@@ -392,6 +259,12 @@ static OfxStatus clip_get_handle(OfxImageEffectHandle effect, const char *name,
             if ((*clip)->picture->alpha)
                 put_text((*clip)->props, kOfxImageEffectPropPreMultiplication, 0,
                          (*clip)->picture->alpha);
+            for (int k = 0; k < 3 && (*clip)->picture->names[k]; k++)
+                put_text((*clip)->props, kWideOpenClipPropMetadataNames, k,
+                         (*clip)->picture->names[k]);
+            for (int k = 0; k < 3 && (*clip)->picture->values[k]; k++)
+                put_text((*clip)->props, kWideOpenClipPropMetadataValues, k,
+                         (*clip)->picture->values[k]);
             if (props)
                 *props = (*clip)->props;
             return kOfxStatOK;
@@ -412,7 +285,7 @@ static OfxStatus clip_get_image(OfxImageClipHandle clip, OfxTime time, const Ofx
 {
     const mock_picture *const p = clip->picture;
     (void)time;
-    *image = (OfxPropertySetHandle)(void *)&live_sets; /* a failure promises nothing about it */
+    *image = (OfxPropertySetHandle)(void *)&mock; /* a failure promises nothing about it */
     if (p->starved)
         return kOfxStatErrMemory;
     if (p->silent)
@@ -500,6 +373,7 @@ OfxHost *mock_host(void)
     static int calls;
     OfxHost *const host = &hosts[calls++ % 2];
     *host = (OfxHost){&properties, fetch_suite};
+    put_int(&properties, kOfxImageEffectPropSupportsOverlays, 0, (mock.flags & MOCK_OVERLAYS) != 0);
     return host;
 }
 
@@ -549,7 +423,7 @@ void mock_destroy(OfxPlugin *plugin, OfxImageEffectHandle effect)
 void mock_set_property(OfxImageEffectHandle effect, const char *name, int count,
                        const double *values)
 {
-    prop *const p = find(effect->props, name);
+    prop *const p = prop_find(effect->props, name);
     if (p) {
         prop_clear(p);
         *p = effect->props->items[--effect->props->count];

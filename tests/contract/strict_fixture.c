@@ -205,6 +205,7 @@ wo_image expected(const setup *s)
     args.geometry.extent = args.window = pixels_of(s, clips[0].region);
     args.geometry.render_scale = s->scale[0];
     args.geometry.pixel_stretch = s->aspect * s->scale[1] / s->scale[0];
+    args.geometry.pixel_aspect = s->aspect;
     for (int i = 0; i < PROBE_CLIPS; i++) {
         args.geometry.connected[i] = s->connected[i];
         if (!s->connected[i])

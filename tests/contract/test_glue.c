@@ -378,6 +378,69 @@ static void plans_and_reports_are_published(void **state)
     close_host(&host);
 }
 
+/* A camera that pulls focus. */
+static wo_status metadata(void *user, double time, wo_host_add_metadata *add, void *to,
+                          wo_error *error)
+{
+    const noise *const n = user;
+    char focus[32];
+    (void)error;
+    if (n->missing)
+        return wo_fail(error, WO_ERR_NOT_FOUND, "no picture");
+    snprintf(focus, sizeof focus, "%g", time);
+    if (n == &clips[PROBE_DEPTH])
+        add(to, "focus", focus);
+    if (n != &clips[PROBE_SOURCE])
+        add(to, "aperture", "11"); /* Source comes first */
+    add(to, "exr/aperture", n == &clips[PROBE_SOURCE] ? "4" : "22");
+    add(to, "", "");
+    return WO_OK;
+}
+
+static void explain(wo_host_instance *instance, double time, published *p)
+{
+    wo_error error = {WO_OK, ""};
+    wo_image got = {.data = NULL};
+    wo_host_render_args args = WO_HOST_RENDER_INIT;
+    args.time = time;
+    args.report = WO_HOST_REPORT_EXPLAIN;
+    args.report_user = p;
+    args.publish = keep;
+    if (wo_host_render(instance, &args, &got, NULL, &error) != WO_OK)
+        fail_msg("%s", error.text);
+    wo_host_image_free(&got);
+}
+
+static void metadata_is_that_of_the_frame(void **state)
+{
+    (void)state;
+    wo_host *host = open_host(1, 0);
+    reset_clips(1);
+    wo_host_instance *instance = create(host, "General", 1);
+    published p = {0, 0, ""};
+    for (int i = 0; i < 3; i++) {
+        wo_host_source source = source_of(&clips[i]);
+        source.metadata = metadata;
+        assert_int_equal(wo_host_set_clip(instance, probe_effect.clips[i].name, &source, NULL),
+                         WO_OK);
+    }
+    static const double times[] = {3, 8, 3};
+    for (size_t i = 0; i < WO_COUNT(times); i++) {
+        char wanted[64];
+        explain(instance, times[i], &p);
+        snprintf(wanted, sizeof wanted, "camera=4 exr/aperture %g\n", times[i]);
+        assert_non_null(strstr(p.text, wanted));
+    }
+    clips[PROBE_DEPTH].missing = true; /* no picture, no metadata, no failure */
+    explain(instance, 5, &p);
+    assert_non_null(strstr(p.text, "camera=4 exr/aperture 0\n"));
+    connect_clip(instance, PROBE_SOURCE); /* without metadata */
+    explain(instance, 5, &p);
+    assert_non_null(strstr(p.text, "camera=0  0\n"));
+    wo_host_instance_destroy(&instance);
+    close_host(&host);
+}
+
 typedef struct racer {
     wo_host_instance *instance;
     setup s;
@@ -500,6 +563,7 @@ int main(void)
         cmocka_unit_test(an_abort_ends_the_render_early),
         cmocka_unit_test(errors_are_shown_and_go_away),
         cmocka_unit_test(plans_and_reports_are_published),
+        cmocka_unit_test(metadata_is_that_of_the_frame),
         cmocka_unit_test(two_instances_work_side_by_side),
         cmocka_unit_test(tiles_of_one_instance_may_overlap),
         cmocka_unit_test(unpremultiplied_sources_are_not_copied),

@@ -42,8 +42,8 @@ static void reload(unsigned flags)
 static void the_binary_offers_its_plugins(void **state)
 {
     (void)state;
-    assert_int_equal(probe_count(), 2);
-    assert_null(probe_get(2));
+    assert_int_equal(probe_count(), 3);
+    assert_null(probe_get(3));
     assert_string_equal(probe_get(1)->pluginIdentifier, "org.wideopen.test.Demanding");
     assert_null(probe_get(-1));
     assert_ptr_equal(probe_get(0), probe);
@@ -486,6 +486,24 @@ static void values_beyond_the_range_are_met(void **state)
     mock_destroy(probe, effect);
 }
 
+static void metadata_is_taken_where_it_is_offered(void **state)
+{
+    (void)state;
+    pictures();
+    const OfxImageEffectHandle effect = create(kOfxImageEffectContextGeneral);
+    assert_non_null(strstr(explain(effect, full, NULL), "camera=0  0\n"));
+    mock.pictures[0].names[0] = "nothing";
+    mock.pictures[0].names[1] = "exr/aperture";
+    mock.pictures[0].names[2] = "focus"; /* a name too many */
+    mock.pictures[0].values[0] = "";
+    mock.pictures[0].values[1] = "5.6";
+    assert_non_null(strstr(explain(effect, full, NULL), "camera=5.6 exr/aperture 0\n"));
+    mock.forget = kWideOpenClipPropMetadataValues;
+    assert_non_null(strstr(explain(effect, full, NULL), "camera=0  0\n"));
+    mock.forget = NULL;
+    mock_destroy(probe, effect);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, fixture_load, fixture_unload)
 
 int main(void)
@@ -508,6 +526,7 @@ int main(void)
         TEST(the_progress_bar_rises_and_can_cancel),
         TEST(reports_are_published_when_asked_for),
         TEST(values_beyond_the_range_are_met),
+        TEST(metadata_is_taken_where_it_is_offered),
     };
     return cmocka_run_group_tests_name("glue and odd hosts", tests, fixture_open, fixture_close);
 }

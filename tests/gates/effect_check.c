@@ -324,6 +324,29 @@ static void check_defaults(const wo_effect *e, faults *f)
     free(again);
 }
 
+/* What is marked for overlays belongs to points, and the effect uses no more than there are. */
+static void check_handles(const wo_effect *e, faults *f)
+{
+    int marks = 0, points = 0;
+    bool joined = false;
+    for (size_t i = 0; i < e->param_count; i++) {
+        marks += e->params[i].overlay;
+        points += e->params[i].overlay && e->params[i].type == WO_PARAM_POINT;
+    }
+    if (points == 0 && (marks > 0 || e->handles))
+        fault(f, "%s: an overlay without a point", e->name);
+    if (!e->handles)
+        return;
+    char *const params = calloc(1, e->params_size);
+    if (!params)
+        abort();
+    wo_params_default(e->params, e->param_count, params);
+    const int used = e->handles(params, &joined);
+    if (used < 0 || used > points)
+        fault(f, "%s: %d of %d handles are in use", e->name, used, points);
+    free(params);
+}
+
 void check_effect(const wo_effect *e, faults *f)
 {
     const int before = f->count;
@@ -347,4 +370,6 @@ void check_effect(const wo_effect *e, faults *f)
         check_fields(e, f);
     if (f->count == before)
         check_defaults(e, f);
+    if (f->count == before)
+        check_handles(e, f);
 }

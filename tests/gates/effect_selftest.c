@@ -72,6 +72,13 @@ static void plan_destroy(wo_plan **plan)
     *plan = NULL;
 }
 
+static int two_handles(const void *params, bool *joined)
+{
+    (void)params;
+    *joined = true;
+    return 2;
+}
+
 static void make(sample *s)
 {
     *s = (sample){.params = {{.key = "size",
@@ -121,7 +128,8 @@ static void make(sample *s)
                               .min = -9,
                               .max = 9,
                               .ui_min = -1,
-                              .ui_max = 1},
+                              .ui_max = 1,
+                              .overlay = true},
                              {.key = "text",
                               .label = "Text",
                               .help = "What it says.",
@@ -243,6 +251,9 @@ static void check_table_mistakes(faults *f)
     MISTAKE(s.effect.label = "", "no label");
     MISTAKE(s.effect.help = NULL, "full stop");
     MISTAKE(s.effect.render = NULL, "missing");
+    MISTAKE((s.params[PLACE].overlay = false, s.params[COUNT].overlay = true), "without a point");
+    MISTAKE((s.params[PLACE].overlay = false, s.effect.handles = two_handles), "without a point");
+    MISTAKE(s.effect.handles = two_handles, "2 of 1 handles");
 }
 
 /* Replaces the first from in a page by to; the page must then be found wrong, or still right. */

@@ -89,6 +89,7 @@ make_project() {
             '    return c->abort(c) || b[0] == mark ? 0 : snprintf(b, n, "%s", text);' '}'
         put core/defocus/march_avx2.c '#include "base/number.h"' '#include <immintrin.h>'
         put plugins/plugin.c '#include "ofx/ofxCore.h"' '#include "wideopen/effect.h"'
+        put plugins/ofx_draw_gl.c '#include <dlfcn.h>'
         header ofx_host_stub/host/host.h WO_HOST_H '#include "wideopen/base.h"'
         header ofx_host_stub/host/internal.h WO_INTERNAL_H '#include "host.h"' \
             '#include "ofxCore.h"'

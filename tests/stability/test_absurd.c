@@ -3,6 +3,7 @@
 #include "near.h"
 #include "scenes.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* Parameters that nobody would choose: the picture is finite, or an error says what is wrong. */
@@ -33,7 +34,7 @@ static void set(scene *s, const wo_param *row, double value)
     const double values[3] = {value, value, value};
     wo_error error = {WO_OK, ""};
     /* Rays and large blur cost time, and nothing else. */
-    if (strcmp(row->key, "samples") == 0 && value > 40)
+    if ((strcmp(row->key, "samples") == 0 || strcmp(row->key, "maxRays") == 0) && value > 40)
         return;
     if (strcmp(row->key, "maxRadius") == 0 && value > 150)
         return;
@@ -84,7 +85,24 @@ static scene start(uint64_t seed)
     scene_init(&s, small);
     scene_fill_layers(&s, seed);
     s.params.samples = 9;
+    s.params.max_rays = 40;
     return s;
+}
+
+/* Metadata of somebody's file; each value may be there, and be of any size. */
+static void name_camera(scene *s, rng *r)
+{
+    static const char *const names[] = {
+        "wideopen:focalLength",   "wideopen:sensorWidth", "wideopen:fStop", "cameraFov",
+        "wideopen:focusDistance", "wideopen:near",        "cameraFarClip",  "wideopen:depthScale"};
+    for (size_t i = 0; i < WO_COUNT(names); i++) {
+        char text[40];
+        const double value = pow(10, rng_range(r, -10, 10));
+        snprintf(text, sizeof text, "%g", rng_unit(r) < 0.1 ? -value : value);
+        if (rng_unit(r) < 0.5)
+            wo_camera_read(&s->geometry.camera, names[i], text);
+    }
+    s->params.camera_from = rng_int(r, 1, 4);
 }
 
 static void each_end_of_each_range(void **state)
@@ -125,6 +143,8 @@ static void random_combinations(void **state)
             s.geometry.render_scale = pow(2, rng_int(&r, -5, 1));
         if (rng_unit(&r) < 0.3)
             s.geometry.pixel_stretch = pow(2, rng_range(&r, -2, 2));
+        if (rng_unit(&r) < 0.2)
+            name_camera(&s, &r);
         pictures += survives(&s);
         scene_free(&s);
     }
@@ -144,7 +164,7 @@ static void beyond_the_ranges(void **state)
         for (size_t k = 0; k < WO_COUNT(wrong); k++) {
             scene s = start(i);
             char *const field = (char *)&s.params + row->offset;
-            if (row->type == WO_PARAM_DOUBLE) {
+            if (row->type == WO_PARAM_DOUBLE || row->type == WO_PARAM_POINT) {
                 memcpy(field, &wrong[k], sizeof wrong[k]);
             } else {
                 const int32_t outside = (int32_t)(k % 2 ? row->max + 1 : row->min - 1);

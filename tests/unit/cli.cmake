@@ -22,3 +22,12 @@ target_compile_definitions(test_plot PRIVATE _XOPEN_SOURCE=700)
 target_include_directories(test_plot PRIVATE ${PROJECT_SOURCE_DIR})
 target_link_libraries(test_plot PRIVATE wo_base wo_options cmocka m)
 add_test(NAME unit.plot COMMAND test_plot)
+
+# What follows from errors and times.
+add_executable(test_bench ${CMAKE_CURRENT_LIST_DIR}/test_bench.c
+    ${cli}/bench_judge.c ${cli}/bench_page.c ${cli}/bench_table.c
+    ${cli}/json.c ${cli}/json_read.c ${cli}/plot.c ${cli}/svg.c)
+target_compile_definitions(test_bench PRIVATE _POSIX_C_SOURCE=200809L)
+target_include_directories(test_bench PRIVATE ${PROJECT_SOURCE_DIR})
+target_link_libraries(test_bench PRIVATE wo_base wo_options cmocka m)
+add_test(NAME unit.bench COMMAND test_bench)

@@ -57,6 +57,53 @@ static void test_ticks_degenerate(void **state)
         }
 }
 
+static void check_log_ticks(double low, double high, int count, double first, double last)
+{
+    wo_ticks ticks;
+    wo_ticks_make_log(low, high, &ticks);
+    assert_int_equal(ticks.count, count);
+    assert_true(fabs(ticks.value[0] / first - 1) < 1e-9);
+    assert_true(fabs(ticks.value[count - 1] / last - 1) < 1e-9);
+}
+
+static void test_log_axis(void **state)
+{
+    (void)state;
+    check_log_ticks(0.02, 0.5, 5, 0.02, 0.5);
+    check_log_ticks(0.021, 10, 8, 0.05, 10);
+    check_log_ticks(0.006, 0.016, 6, 0.006, 0.015);
+    check_log_ticks(1, 1000, 10, 1, 1000);
+    check_log_ticks(1e-4, 1e6, 6, 1e-4, 1e6);
+    for (double low = 1e-9; low < 1e9; low *= 1.7)
+        for (double high = low * 1.01; high < 1e12; high *= 3.1) {
+            wo_axis axis = {low, high, NULL, 0, true};
+            wo_ticks ticks;
+            wo_axis_round(&axis);
+            wo_ticks_make_log(axis.low, axis.high, &ticks);
+            assert_true(axis.low <= low * 1.000001 && axis.high >= high * 0.999999);
+            assert_true(axis.low > low / 2.51 && axis.high < high * 2.51);
+            assert_in_range(ticks.count, 1, WO_TICKS_MAX);
+        }
+    const double values[] = {0, -1, NAN, 3, INFINITY, 70};
+    wo_axis axis = {1, 0, NULL, 0, true};
+    wo_axis_cover(&axis, values, WO_COUNT(values));
+    wo_axis_round(&axis);
+    assert_true(fabs(axis.low - 2) < 1e-9 && fabs(axis.high - 100) < 1e-9);
+    const double odd[][2] = {{0, 0}, {-1, 5}, {NAN, NAN}, {INFINITY, 1}, {5, 5}, {9, 2}};
+    for (size_t i = 0; i < WO_COUNT(odd); i++) {
+        wo_axis any = {odd[i][0], odd[i][1], NULL, 0, true};
+        wo_axis_round(&any);
+        assert_true(any.low > 0 && any.high > any.low && isfinite(any.high));
+    }
+    wo_svg svg;
+    wo_svg_begin(&svg, 100, 100, "log");
+    const wo_plot plot = wo_plot_begin(&svg, (wo_box){0, 0, 100, 100}, NULL, axis, axis);
+    assert_true(fabs(wo_plot_x(&plot, 2) - plot.box.x) < 1e-9);
+    assert_true(fabs(wo_plot_x(&plot, sqrt(200)) - plot.box.x - plot.box.w / 2) < 1e-9);
+    assert_true(isnan(wo_plot_y(&plot, 0)));
+    wo_svg_free(&svg);
+}
+
 static void check_number(double value, int decimals, const char *expected)
 {
     char text[32];
@@ -106,8 +153,9 @@ static void draw(wo_svg *svg)
     const double x[] = {0, 1, NAN, 2, 3, 4}, y[] = {0, 1, 1, 2, INFINITY, 1e30};
     const char *const name = "a & b";
     wo_svg_begin(svg, 400, 300, "A <lens> & \"more\"");
-    const wo_plot plot = wo_plot_begin(svg, (wo_box){0, 0, 400, 300}, "f/2 \xC2\xB5 \xFF\x01",
-                                       (wo_axis){0, 4, "x, mm", 0}, (wo_axis){0, 2, "y", 0});
+    const wo_plot plot =
+        wo_plot_begin(svg, (wo_box){0, 0, 400, 300}, "f/2 \xC2\xB5 \xFF\x01",
+                      (wo_axis){0, 4, "x, mm", 0, false}, (wo_axis){0, 2, "y", 0, false});
     wo_plot_curve(&plot, &pen, x, y, 6);
     wo_plot_curve(&plot, &pen, x, y, 0);
     wo_plot_legend(svg, 390, 15, &pen, &name, 1);
@@ -206,10 +254,10 @@ static void test_files(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ticks),   cmocka_unit_test(test_ticks_degenerate),
-        cmocka_unit_test(test_numbers), cmocka_unit_test(test_axes),
-        cmocka_unit_test(test_drawing), cmocka_unit_test(test_clip),
-        cmocka_unit_test(test_files),
+        cmocka_unit_test(test_ticks),    cmocka_unit_test(test_ticks_degenerate),
+        cmocka_unit_test(test_log_axis), cmocka_unit_test(test_numbers),
+        cmocka_unit_test(test_axes),     cmocka_unit_test(test_drawing),
+        cmocka_unit_test(test_clip),     cmocka_unit_test(test_files),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

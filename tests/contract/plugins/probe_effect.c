@@ -225,14 +225,16 @@ static int plan_print(const wo_plan *plan, char *buffer, size_t size)
     return snprintf(
         buffer, size,
         "format=%d,%d,%d,%d\nextent=%d,%d,%d,%d\nwindow=%d,%d,%d,%d\nscale=%.6f\nstretch=%.6f\n"
-        "connected=%d%d%d%d\npixels=%d%d%d%d\nalpha=%d\nreach=%d,%d\nworkers=%u\nnote=%s\n",
+        "connected=%d%d%d%d\npixels=%d%d%d%d\nalpha=%d\nreach=%d,%d\nworkers=%u\nnote=%s\n"
+        "camera=%g %s %g\n",
         g->format.x1, g->format.y1, g->format.x2, g->format.y2, g->extent.x1, g->extent.y1,
         g->extent.x2, g->extent.y2, plan->window.x1, plan->window.y1, plan->window.x2,
         plan->window.y2, g->render_scale, g->pixel_stretch, g->connected[0], g->connected[1],
         g->connected[2], g->connected[3], in[0].data ? in[0].components : 0,
         in[1].data ? in[1].components : 0, in[2].data ? in[2].components : 0,
         in[3].data ? in[3].components : 0, (int)plan->alpha[0], plan->rx, plan->ry,
-        wo_workers(&plan->context), plan->params.note);
+        wo_workers(&plan->context), plan->params.note, g->camera.facts[WO_CAMERA_F_NUMBER].value,
+        g->camera.facts[WO_CAMERA_F_NUMBER].name, g->camera.facts[WO_CAMERA_FOCUS].value);
 }
 
 static int32_t clamp(int32_t value, int32_t low, int32_t high)

@@ -30,4 +30,8 @@ enum { PROBE_SOURCE, PROBE_DEPTH, PROBE_MASK, PROBE_EXTRA, PROBE_CLIPS };
 
 extern const wo_effect probe_effect;
 
+/* The same with points that are handles: three of them, as many as "uses" says, in "mode" each or
+   plane. */
+const wo_effect *pointing_effect(void);
+
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
-#include "ofx_plugin.h"
+#include "ofx_overlay.h"
 #include "probe_effect.h"
 
 #include <string.h>
@@ -73,4 +73,46 @@ static wo_ofx_plugin demanding = {
     .effect = demanding_effect,
 };
 
-wo_ofx_plugin *const wo_ofx_plugins[] = {&plugin, &demanding, NULL};
+/* The one with handles. */
+static wo_ofx_plugin pointing;
+
+static void pointing_set_host(OfxHost *host)
+{
+    pointing.host = host;
+}
+
+static OfxStatus pointing_entry(const char *action, const void *handle, OfxPropertySetHandle in,
+                                OfxPropertySetHandle out)
+{
+    return wo_ofx_main(&pointing, action, handle, in, out);
+}
+
+static OfxStatus pointing_gl(const char *action, const void *handle, OfxPropertySetHandle in,
+                             OfxPropertySetHandle out)
+{
+    (void)out;
+    return wo_ofx_overlay(&pointing, action, handle, in, true);
+}
+
+static OfxStatus pointing_draw(const char *action, const void *handle, OfxPropertySetHandle in,
+                               OfxPropertySetHandle out)
+{
+    (void)out;
+    return wo_ofx_overlay(&pointing, action, handle, in, false);
+}
+
+static wo_ofx_plugin pointing = {
+    .ofx = {.pluginApi = kOfxImageEffectPluginApi,
+            .apiVersion = kOfxImageEffectPluginApiVersion,
+            .pluginIdentifier = "org.wideopen.test.Pointing",
+            .pluginVersionMajor = 1,
+            .pluginVersionMinor = 0,
+            .setHost = pointing_set_host,
+            .mainEntry = pointing_entry},
+    .group = "WideOpen/Test",
+    .effect = pointing_effect,
+    .overlay_gl = pointing_gl,
+    .overlay_draw = pointing_draw,
+};
+
+wo_ofx_plugin *const wo_ofx_plugins[] = {&plugin, &demanding, &pointing, NULL};

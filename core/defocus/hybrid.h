@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#ifndef WO_CORE_DEFOCUS_HYBRID_H
+#define WO_CORE_DEFOCUS_HYBRID_H
+
+#include "defocus/renderer.h"
+
+/* Lens rays where they are needed, smoothing where it is right (after Tan et al. 2022 as told by
+   Marsicano 2024, chapter 5, with what goes wrong there mended).
+
+   Few rays a pixel find exactly what is in focus, and leave noise in what is far out of it: how
+   much of a near surface covers the pixel, and its colour. But the picture of such a surface is
+   smooth by the size of its blur. So the light of the rays is kept apart by where it came from: far
+   in front of the focus, about it, far behind. The picture in front is smoothed by a fraction of
+   its own blur, its coverage too; what is behind keeps its detail and fills exactly the light that
+   is left. The parts are put together once, at the end: no dark edges, nothing counted twice. */
+
+/* Blur of so many px of radius is kept apart; smoothing begins here. */
+#define WO_HYBRID_APART_PX 3.0
+
+/* What the rays leave of a pixel, as fractions of all light: one plane of floats each. */
+enum {
+    WO_HYBRID_NEAR,                                /* r g b a, and a over vergence */
+    WO_HYBRID_FAR = WO_HYBRID_NEAR + WO_PART_SUMS, /* the same behind the focus */
+    WO_HYBRID_REST = WO_HYBRID_FAR + WO_PART_SUMS, /* r g b a of what is neither */
+    WO_HYBRID_LEFT = WO_HYBRID_REST + 4,           /* light that nothing stopped */
+    WO_HYBRID_GUESSED,
+    WO_HYBRID_NOISE, /* near, far, rest: square of half the difference between the halves of the
+                        rays, in the displayed value */
+    WO_HYBRID_PLANES = WO_HYBRID_NOISE + 3
+};
+
+enum { WO_HYBRID_CELL = 8, WO_HYBRID_TAPS_MAX = 64, WO_HYBRID_KERNELS = 33 };
+
+/* A kernel over whole pixels. gain: how much of the variance it leaves. */
+typedef struct wo_hybrid_kernel {
+    int count;
+    int8_t x[WO_HYBRID_TAPS_MAX], y[WO_HYBRID_TAPS_MAX];
+    float weight[WO_HYBRID_TAPS_MAX];
+    float gain;
+} wo_hybrid_kernel;
+
+/* Largest offset of a tap, px. */
+#define WO_HYBRID_REACH 8
+/* px beyond the window that must be traced: taps, and the cells around. */
+#define WO_HYBRID_MARGIN (WO_HYBRID_REACH + 2 * WO_HYBRID_CELL)
+
+/* Kernels by radius in quarters of a px: [0] is the pixel itself. Each leaves every quadratic as it
+   is. */
+void wo_hybrid_kernels(wo_hybrid_kernel kernels[WO_HYBRID_KERNELS]);
+
+/* Of a cell of 8 x 8 px and those around it. */
+typedef struct wo_hybrid_cell {
+    uint8_t near, far; /* kernels */
+    float noise[3];    /* means */
+    float own_noise;   /* of this cell alone, all parts */
+} wo_hybrid_cell;
+
+typedef struct wo_hybrid {
+    const wo_defocus *scene;
+    const wo_frame *frame;
+    wo_rect tiles; /* those of the frame, and its margin */
+    wo_rect area;  /* of these tiles, px */
+    ptrdiff_t width;
+    float *memory;
+    float *plane[WO_HYBRID_PLANES];
+    float *rays;     /* [tiles] a pixel */
+    uint8_t *wanted; /* [tiles] */
+    wo_hybrid_cell *cells;
+    int32_t columns, rows; /* of cells */
+    wo_hybrid_kernel kernels[WO_HYBRID_KERNELS];
+} wo_hybrid;
+
+/* Index of the kernel for a part with these sums of coverage and of coverage over vergence, at so
+   many rays a pixel. */
+int wo_hybrid_kernel_for(const wo_hybrid *hybrid, bool near, double rays, double coverage,
+                         double by_vergence);
+
+/* Fills the planes of one tile. false when stopped. */
+bool wo_hybrid_trace(wo_hybrid *hybrid, int32_t tx, int32_t ty, wo_report *part);
+
+/* Chooses the kernels of a row of cells from the planes. */
+void wo_hybrid_choose(wo_hybrid *hybrid, int32_t row);
+
+/* Puts the parts of one tile together. */
+void wo_hybrid_join(const wo_hybrid *hybrid, int32_t tx, int32_t ty, wo_tile_pixels *pixels,
+                    wo_tile_facts *facts);
+
+#endif

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "defocus/adaptive.h"
+#include "defocus/hybrid.h"
+
+#include <math.h>
+#include <string.h>
+
+/* One pixel of sums, each part divided by the light of its colour. */
+typedef struct split {
+    float c[4];
+    float near[WO_PART_SUMS], far[WO_PART_SUMS];
+} split;
+
+/* Channel whose weight a part has. */
+static int channel_of(int k)
+{
+    return k < 3 ? k : 3;
+}
+
+static void part_of(const wo_march_sums *sums, int i, const float sum[WO_PART_SUMS][WO_LANES],
+                    float out[WO_PART_SUMS])
+{
+    for (int k = 0; k < WO_PART_SUMS; k++) {
+        const float weight = sums->weight[channel_of(k)][i];
+        out[k] = weight > 0 ? sum[k][i] / weight : 0;
+    }
+}
+
+/* In a tile of one vergence all light is of one part. */
+static void split_single(const wo_tile_work *work, split *s)
+{
+    for (int n = 0; n < work->rays->stack->sheets; n++) {
+        const wo_bounds b = work->tile->bounds[n];
+        if (b.v_min > b.v_max)
+            continue;
+        const bool near = b.v_min > work->view.v_apart;
+        if (!near && !(b.v_max < -work->view.v_apart))
+            continue;
+        float *const part = near ? s->near : s->far;
+        memcpy(part, s->c, sizeof s->c);
+        part[4] = s->c[3] / fabsf(0.5f * (b.v_min + b.v_max));
+    }
+}
+
+static bool split_pixel(const wo_tile_work *work, const wo_march_sums *sums, int32_t row,
+                        int run_index, int i, split *s)
+{
+    memset(s, 0, sizeof *s);
+    if (!wo_tile_work_pixel(work, sums, row, run_index, i, s->c))
+        return false;
+    if (work->tile->class == WO_TILE_SINGLE) {
+        split_single(work, s);
+    } else {
+        part_of(sums, i, sums->near, s->near);
+        part_of(sums, i, sums->far, s->far);
+    }
+    return true;
+}
+
+/* Squares of the noise of the parts, from two halves of the rays. Coverage and colour of a part
+   err together: what counts is the part against that which fills the light left by it. */
+static void noise_of(const split *all, const split *a, const split *b, float noise[3])
+{
+    const float open = 1 - all->near[3];
+    const float far_a = all->far[3];
+    for (int k = 0; k < 3; k++) {
+        const float behind = open > 1e-3f ? (all->c[k] - all->near[k]) / open : all->near[k];
+        const float beyond = far_a > 1e-3f ? all->far[k] / far_a : 0;
+        const float near = a->near[k] - b->near[k] - behind * (a->near[3] - b->near[3]);
+        const float far = a->far[k] - b->far[k] - beyond * (a->far[3] - b->far[3]);
+        const float rest = a->c[k] - b->c[k] - near - far;
+        const float d[3] = {near, far, rest};
+        const float slope = wo_shown(a->c[k], b->c[k]);
+        for (int n = 0; n < 3; n++) {
+            const float e = 0.5f * slope * d[n];
+            noise[n] += e * e * (1.0f / 3);
+        }
+    }
+}
+
+static void put(wo_hybrid *h, ptrdiff_t at, const split *s, float guessed, const float noise[3])
+{
+    for (int k = 0; k < WO_PART_SUMS; k++) {
+        h->plane[WO_HYBRID_NEAR + k][at] = s->near[k];
+        h->plane[WO_HYBRID_FAR + k][at] = s->far[k];
+    }
+    for (int k = 0; k < 4; k++)
+        h->plane[WO_HYBRID_REST + k][at] = s->c[k] - s->near[k] - s->far[k];
+    h->plane[WO_HYBRID_LEFT][at] = 1 - s->c[3];
+    h->plane[WO_HYBRID_GUESSED][at] = guessed;
+    for (int n = 0; n < 3; n++)
+        h->plane[WO_HYBRID_NOISE + n][at] = noise[n];
+}
+
+/* The parts of a pixel, and what its halves say of their noise. */
+static void look_at(const wo_tile_work *work, const wo_tile_sums *sums, int32_t row, int run_index,
+                    int i, split *all, float noise[3])
+{
+    const wo_march_sums *const halves = sums->halves[row][run_index];
+    wo_march_sums both = halves[0];
+    wo_march_add(&both, &halves[1]);
+    split half[2];
+    noise[0] = noise[1] = noise[2] = 0;
+    if (split_pixel(work, &both, row, run_index, i, all) && sums->rays > 1 &&
+        split_pixel(work, &halves[0], row, run_index, i, &half[0]) &&
+        split_pixel(work, &halves[1], row, run_index, i, &half[1]))
+        noise_of(all, &half[0], &half[1], noise);
+}
+
+/* What smoothing will leave of the noise, as far as this tile can tell. */
+static double error_of(void *user, const wo_tile_work *work, const wo_tile_sums *sums)
+{
+    const wo_hybrid *h = user;
+    double total = 0;
+    for (int x0 = 0; x0 < WO_TILE_WIDTH; x0 += WO_HYBRID_CELL) {
+        double noise[3] = {0};
+        double near[2] = {0};
+        double far[2] = {0};
+        for (int32_t row = 0; row < WO_TILE_HEIGHT; row++) {
+            for (int x = x0; x < x0 + WO_HYBRID_CELL; x++) {
+                split s;
+                float one[3];
+                look_at(work, sums, row, x % WO_PHASES, x / WO_PHASES, &s, one);
+                for (int n = 0; n < 3; n++)
+                    noise[n] += (double)one[n];
+                for (int n = 0; n < 2; n++) {
+                    near[n] += (double)s.near[3 + n];
+                    far[n] += (double)s.far[3 + n];
+                }
+            }
+        }
+        const int near_kernel = wo_hybrid_kernel_for(h, true, sums->rays, near[0], near[1]);
+        const int far_kernel = wo_hybrid_kernel_for(h, false, sums->rays, far[0], far[1]);
+        total += noise[0] * (double)h->kernels[near_kernel].gain +
+                 noise[1] * (double)h->kernels[far_kernel].gain + noise[2];
+    }
+    return total / (WO_TILE_WIDTH * WO_TILE_HEIGHT);
+}
+
+bool wo_hybrid_trace(wo_hybrid *h, int32_t tx, int32_t ty, wo_report *part)
+{
+    const wo_defocus *scene = h->scene;
+    const size_t tile =
+        (size_t)(ty - h->tiles.y1) * (size_t)wo_rect_width(h->tiles) + (size_t)(tx - h->tiles.x1);
+    const ptrdiff_t origin = (ptrdiff_t)(ty * WO_TILE_HEIGHT - h->area.y1) * h->width +
+                             (tx * WO_TILE_WIDTH - h->area.x1);
+    wo_tile_work work;
+    wo_tile_sums sums;
+    wo_tile_work_begin(scene->rays, scene->context, tx, ty,
+                       (float)(WO_HYBRID_APART_PX / scene->lens->px_per_dioptre), &work);
+    if (work.tile->class == WO_TILE_EMPTY) {
+        for (int32_t row = 0; row < WO_TILE_HEIGHT; row++)
+            for (int32_t x = 0; x < WO_TILE_WIDTH; x++)
+                h->plane[WO_HYBRID_LEFT][origin + row * h->width + x] = 1;
+        return true;
+    }
+    if (!wo_tile_sample(scene, &work, error_of, h, &sums, part))
+        return false;
+    h->rays[tile] = (float)sums.rays;
+    for (int32_t row = 0; row < WO_TILE_HEIGHT; row++) {
+        for (int x = 0; x < WO_TILE_WIDTH; x++) {
+            const int run_index = x % WO_PHASES;
+            const int i = x / WO_PHASES;
+            const wo_march_sums *const halves = sums.halves[row][run_index];
+            split all;
+            float noise[3];
+            look_at(&work, &sums, row, run_index, i, &all, noise);
+            put(h, origin + row * h->width + x, &all,
+                (halves[0].guessed[i] + halves[1].guessed[i]) / (float)sums.scale, noise);
+        }
+    }
+    return true;
+}
