@@ -57,8 +57,8 @@ typedef struct wo_accumulator {
     wo_thin_at *thin_at;     /* [2 thin_room] sorted, and as found */
     uint32_t *thin_order;    /* [4 thin_room] */
     wo_thin_hit *thin_hits;  /* [3 thin_room] */
-    float (*thin_around)[4]; /* [9 thin_room] */
-    size_t thin_room;
+    float (*thin_around)[4]; /* [9 around_room] */
+    size_t thin_room, around_room;
     int level_used; /* the coarsest of the tile */
     int64_t writes;
     int64_t reused; /* views that another stood for */
@@ -69,6 +69,12 @@ typedef struct wo_accumulator {
 WO_NODISCARD wo_status wo_accumulator_create(const wo_context *context, int count,
                                              wo_accumulator *worker, wo_error *error);
 void wo_accumulator_destroy(const wo_context *context, wo_accumulator *worker);
+
+/* The thin pixels that may be seen in a tile, nearest first, in the memory of the worker. reach: of
+   the tile, px. False without memory. */
+bool wo_thin_gather(const wo_accumulate *all, wo_accumulator *worker, wo_rect tile, float reach,
+                    wo_thin *thin);
+void wo_thin_forget(const wo_context *context, wo_accumulator *worker);
 
 /* Makes a worker ready for a tile: thin pixels, sums of 0. False without memory. */
 bool wo_accumulate_begin(const wo_accumulate *all, wo_accumulator *worker, int32_t tx, int32_t ty);

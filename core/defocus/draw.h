@@ -38,8 +38,8 @@ enum { WO_VIEW_V, WO_VIEW_RED, WO_VIEW_ALPHA = WO_VIEW_RED + 3, WO_VIEW_GUESSED,
 /* A thin pixel of a tile. */
 typedef struct wo_thin_at {
     const wo_piece *piece;
-    const float (*around)[4]; /* [9] what its neighbours and itself, the fifth, lend; NULL = its
-                                 blur is so large that it is not needed */
+    /* [9] what its neighbours lend, and itself, the fifth; NULL = not wanted: its blur is large */
+    const float (*around)[4];
     float c[4];
     float drop; /* dioptres to its farthest neighbour */
     int16_t at; /* in the planes of the piece */

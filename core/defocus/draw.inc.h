@@ -411,7 +411,7 @@ static void draw_thin(drawing *g, const wo_thin_hit *hit)
         return;
     float c[4];
     memcpy(c, thin->c, sizeof c);
-    if (hit->step <= WO_SMOOTH_PX && hit->step >= -WO_SMOOTH_PX) {
+    if (thin->around && hit->step <= WO_SMOOTH_PX && hit->step >= -WO_SMOOTH_PX) {
         float w[9] = {0};
         if (g->count > 1) {
             int dx;

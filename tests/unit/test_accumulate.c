@@ -361,7 +361,7 @@ static void rays_between_pixels(void **state)
         for (int32_t i = 0; i < w * wo_rect_height(area); i++) {
             const bool left = i % w + area.x1 < 32;
             const float c[4] = {left ? 1 : 0, 0.5f, left ? 0 : 1, 1};
-            sheet->v[i] = left ? 0.003f : beside == 0 ? 0.003f : -3;
+            sheet->v[i] = left ? 0.003f : beside == 0 ? 0.003f : -0.25f;
             memcpy(sheet->c[i], c, sizeof c);
             if (!left && beside == 2) {
                 sheet->v[i] = NAN;
