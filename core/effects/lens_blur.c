@@ -116,7 +116,7 @@ wo_lens_blur_areas wo_lens_blur_plan_areas(const wo_lens_blur_setup *setup,
     if (wo_rect_empty(window))
         return areas;
     const double reach = setup->reach * setup->tilt * fmax(1, geometry->pixel_stretch);
-    const int32_t margin = (int32_t)ceil(reach) + WO_RAYS_MARGIN;
+    const int32_t margin = (int32_t)ceil(reach) + WO_STACK_MARGIN;
     const wo_rect tiles =
         on_grid(wo_rect_grow(window, setup->margin, setup->margin), WO_TILE_WIDTH, WO_TILE_HEIGHT);
     areas.stack = wo_stack_grid(wo_rect_grow(tiles, margin, margin));

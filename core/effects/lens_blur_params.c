@@ -37,9 +37,10 @@ static const char *const repairs[] = {"off", "colour", "all", NULL};
 static const char *const repair_labels[] = {"Off", "Antialiased colour",
                                             "Antialiased colour and depth", NULL};
 
-static const char *const methods[] = {"hybrid", "rays", "filter", "spread", "reference", NULL};
-static const char *const method_labels[] = {"Hybrid", "Rays",      "Filter",
-                                            "Spread", "Reference", NULL};
+static const char *const methods[] = {"hybrid",     "rays",      "filter", "spread",
+                                      "accumulate", "reference", NULL};
+static const char *const method_labels[] = {"Hybrid",     "Rays",      "Filter", "Spread",
+                                            "Accumulate", "Reference", NULL};
 static const char *const samplings[] = {"fixed", "adaptive", NULL};
 static const char *const sampling_labels[] = {"Fixed", "Adaptive", NULL};
 
@@ -282,7 +283,8 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
          "much as its own blur allows: the best picture for the time. Rays: lens rays alone. "
          "Filter: every pixel gathers what blurs over it; the fastest, for previews. Spread: "
          "every pixel's light is spread over its circle of confusion, distance by distance: no "
-         "noise; Samples sets how finely distances are told apart. Reference: rays by brute "
+         "noise; Samples sets how finely distances are told apart. Accumulate: whole pictures, "
+         "each seen from one point of the lens: no noise, but ghosts. Reference: rays by brute "
          "force, some 25 times slower, for checking.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(method),
