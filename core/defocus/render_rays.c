@@ -74,7 +74,8 @@ static bool rays_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_ti
     wo_tile_sums sums;
     noise_map map;
     memset(pixels, 0, sizeof *pixels);
-    memset(facts, 0, sizeof *facts);
+    memset(facts->rays, 0, sizeof facts->rays);
+    memset(facts->error, 0, sizeof facts->error);
     wo_tile_work_begin(scene->rays, scene->context, tx, ty, INFINITY, &work);
     part->tiles[work.tile->class]++;
     if (work.tile->class == WO_TILE_EMPTY)
