@@ -20,14 +20,16 @@
 
 /* What the rays leave of a pixel, as fractions of all light: one plane of floats each. */
 enum {
-    WO_HYBRID_NEAR,                                /* r g b a, and a over vergence */
+    WO_HYBRID_NEAR,                                /* as WO_PART_* */
     WO_HYBRID_FAR = WO_HYBRID_NEAR + WO_PART_SUMS, /* the same behind the focus */
     WO_HYBRID_REST = WO_HYBRID_FAR + WO_PART_SUMS, /* r g b a of what is neither */
     WO_HYBRID_LEFT = WO_HYBRID_REST + 4,           /* light that nothing stopped */
     WO_HYBRID_GUESSED,
     WO_HYBRID_NOISE, /* near, far, rest: square of half the difference between the halves of the
                         rays, in the displayed value */
-    WO_HYBRID_PLANES = WO_HYBRID_NOISE + 3
+    WO_HYBRID_JITTER = WO_HYBRID_NOISE + 3, /* the same of near and far together, in square roots of
+                                               light, which do not end at white */
+    WO_HYBRID_PLANES
 };
 
 enum { WO_HYBRID_CELL = 8, WO_HYBRID_TAPS_MAX = 64, WO_HYBRID_KERNELS = 33 };
@@ -53,7 +55,7 @@ void wo_hybrid_kernels(wo_hybrid_kernel kernels[WO_HYBRID_KERNELS]);
 typedef struct wo_hybrid_cell {
     uint8_t near, far; /* kernels */
     float noise[3];    /* means */
-    float own_noise;   /* of this cell alone, all parts */
+    float jitter;      /* of this cell alone: variance that smoothing may take away */
 } wo_hybrid_cell;
 
 typedef struct wo_hybrid {
@@ -63,6 +65,7 @@ typedef struct wo_hybrid {
     wo_rect area;  /* of these tiles, px */
     ptrdiff_t width;
     float *memory;
+    /* Coverage is one plane for all colours if the lens does not part them. */
     float *plane[WO_HYBRID_PLANES];
     float *rays;     /* [tiles] a pixel */
     uint8_t *wanted; /* [tiles] */

@@ -6,8 +6,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Neighbours share rays, and a little detail moves: measured on footage. */
-#define SMOOTH_LEAVES 3.0f
+/* Of the variance of noise smoothing leaves more than one part in as many as there are taps:
+   neighbours share rays, and a little detail moves. Measured on footage. */
+#define SMOOTH_LEAVES 2.0f
+#define SMOOTH_MOVES  0.02f
 
 void wo_hybrid_kernels(wo_hybrid_kernel kernels[WO_HYBRID_KERNELS])
 {
@@ -39,7 +41,7 @@ void wo_hybrid_kernels(wo_hybrid_kernel kernels[WO_HYBRID_KERNELS])
         }
         for (int i = 0; i < k->count; i++)
             k->weight[i] = 1.0f / (float)k->count;
-        k->gain = fminf(1, SMOOTH_LEAVES / (float)k->count);
+        k->gain = k->count > 1 ? fminf(1, SMOOTH_LEAVES / (float)k->count + SMOOTH_MOVES) : 1;
     }
 }
 
@@ -71,8 +73,13 @@ int wo_hybrid_kernel_for(const wo_hybrid *h, bool near, double rays, double cove
 
 void wo_hybrid_choose(wo_hybrid *h, int32_t row)
 {
-    static const int sums[] = {WO_HYBRID_NEAR + 3, WO_HYBRID_NEAR + 4,  WO_HYBRID_FAR + 3,
-                               WO_HYBRID_FAR + 4,  WO_HYBRID_NOISE + 0, WO_HYBRID_NOISE + 1,
+    /* Green stands for all colours. */
+    static const int sums[] = {WO_HYBRID_NEAR + WO_PART_COVERAGE + 1,
+                               WO_HYBRID_NEAR + WO_PART_BLUR,
+                               WO_HYBRID_FAR + WO_PART_COVERAGE + 1,
+                               WO_HYBRID_FAR + WO_PART_BLUR,
+                               WO_HYBRID_NOISE + 0,
+                               WO_HYBRID_NOISE + 1,
                                WO_HYBRID_NOISE + 2};
     enum { SUMS = sizeof sums / sizeof sums[0] };
     for (int32_t column = 0; column < h->columns; column++) {
@@ -92,8 +99,7 @@ void wo_hybrid_choose(wo_hybrid *h, int32_t row)
                 if (a == column && b == row)
                     for (int y = 0; y < WO_HYBRID_CELL; y++)
                         for (int x = 0; x < WO_HYBRID_CELL; x++)
-                            for (int n = 0; n < 3; n++)
-                                own += (double)h->plane[WO_HYBRID_NOISE + n][at + y * h->width + x];
+                            own += (double)h->plane[WO_HYBRID_JITTER][at + y * h->width + x];
             }
         }
         wo_hybrid_cell *const cell = &h->cells[(ptrdiff_t)row * h->columns + column];
@@ -102,7 +108,8 @@ void wo_hybrid_choose(wo_hybrid *h, int32_t row)
                 h->rays[row * wo_rect_width(h->tiles) + column * WO_HYBRID_CELL / WO_TILE_WIDTH];
         cell->near = (uint8_t)wo_hybrid_kernel_for(h, true, rays, sum[0], sum[1]);
         cell->far = (uint8_t)wo_hybrid_kernel_for(h, false, rays, sum[2], sum[3]);
-        cell->own_noise = (float)(own / (WO_HYBRID_CELL * WO_HYBRID_CELL));
+        cell->jitter = (float)(WO_HALVES_TO_ERROR * WO_HALVES_TO_ERROR * own /
+                               (WO_HYBRID_CELL * WO_HYBRID_CELL));
         for (int n = 0; n < 3; n++)
             cell->noise[n] = (float)(sum[4 + n] / (cells * WO_HYBRID_CELL * WO_HYBRID_CELL));
     }
@@ -144,54 +151,147 @@ static void smooth(const wo_hybrid *h, const wo_hybrid_kernel *k, int32_t left, 
     }
 }
 
+/* Mean over red, green and blue; the same to the bit where they agree. */
+static float mean_of(float r, float g, float b)
+{
+    return r == g && g == b ? r : (r + g + b) * (1.0f / 3);
+}
+
+static float coverage_at(const wo_hybrid *h, int part, int k, ptrdiff_t at)
+{
+    return h->plane[part + WO_PART_COVERAGE + k][at];
+}
+
+static float mean_coverage(const wo_hybrid *h, int part, ptrdiff_t at)
+{
+    return mean_of(coverage_at(h, part, 0, at), coverage_at(h, part, 1, at),
+                   coverage_at(h, part, 2, at));
+}
+
 /* Colour of what lies behind the near part, where a pixel's own rays saw almost nothing of it. */
 static void look_around(const wo_hybrid *h, const wo_hybrid_kernel *k, int32_t x, int32_t y,
                         float behind[4])
 {
     const int32_t w = wo_rect_width(h->area);
     const int32_t height = wo_rect_height(h->area);
-    float open = 0;
-    for (int c = 0; c < 4; c++)
-        behind[c] = 0;
+    float open[4] = {0};
+    memset(behind, 0, 4 * sizeof *behind);
     for (int i = 0; i < k->count; i++) {
         int32_t column = x + k->x[i];
         int32_t row = y + k->y[i];
         column = column < 0 ? 0 : column >= w ? w - 1 : column;
         row = row < 0 ? 0 : row >= height ? height - 1 : row;
         const ptrdiff_t at = row * h->width + column;
-        for (int c = 0; c < 4; c++)
+        for (int c = 0; c < 3; c++) {
             behind[c] += h->plane[WO_HYBRID_REST + c][at] + h->plane[WO_HYBRID_FAR + c][at];
-        open += 1 - h->plane[WO_HYBRID_NEAR + 3][at];
+            open[c] += 1 - coverage_at(h, WO_HYBRID_NEAR, c, at);
+        }
+        behind[3] += h->plane[WO_HYBRID_REST + 3][at] + mean_coverage(h, WO_HYBRID_FAR, at);
+        open[3] += 1 - mean_coverage(h, WO_HYBRID_NEAR, at);
     }
     for (int c = 0; c < 4; c++)
-        behind[c] = open > 0 ? behind[c] / open : 0;
-}
-
-/* ... squared, in units of the noise's variance. */
-#define MOVE_LIMIT 9.0f
-
-/* Smoothing may move a pixel as far as noise does, not farther: what is beyond is detail. */
-static void keep_within_noise(const wo_hybrid *h, ptrdiff_t at, float noise, float c[4])
-{
-    float own[4];
-    float moved = 0;
-    for (int k = 0; k < 3; k++) {
-        own[k] = h->plane[WO_HYBRID_NEAR + k][at] + h->plane[WO_HYBRID_FAR + k][at] +
-                 h->plane[WO_HYBRID_REST + k][at];
-        const float d = sqrtf(fminf(fmaxf(c[k], 0), 1)) - sqrtf(fminf(fmaxf(own[k], 0), 1));
-        moved += d * d * (1.0f / 3);
-    }
-    own[3] = 1 - h->plane[WO_HYBRID_LEFT][at];
-    const float most = MOVE_LIMIT * noise;
-    if (moved <= most)
-        return;
-    const float part = sqrtf(most / moved);
-    for (int k = 0; k < 4; k++)
-        c[k] = own[k] + part * (c[k] - own[k]);
+        behind[c] = open[c] > 0 ? behind[c] / open[c] : 0;
 }
 
 /* Light less than this says nothing about what it came from. */
 #define OPEN_MIN 0.02f
+
+/* Colours of one cell. */
+typedef float colours[WO_HYBRID_CELL][WO_HYBRID_CELL][4];
+
+/* The parts as they are. */
+static void add_up(const wo_hybrid *h, int32_t left, int32_t low, colours out)
+{
+    for (int y = 0; y < WO_HYBRID_CELL; y++) {
+        for (int x = 0; x < WO_HYBRID_CELL; x++) {
+            const ptrdiff_t at = (low + y) * h->width + left + x;
+            for (int k = 0; k < 3; k++)
+                out[y][x][k] = h->plane[WO_HYBRID_REST + k][at] + h->plane[WO_HYBRID_FAR + k][at] +
+                               h->plane[WO_HYBRID_NEAR + k][at];
+            out[y][x][3] = h->plane[WO_HYBRID_REST + 3][at] + mean_coverage(h, WO_HYBRID_FAR, at) +
+                           mean_coverage(h, WO_HYBRID_NEAR, at);
+            if (h->plane[WO_HYBRID_LEFT][at] == 0)
+                out[y][x][3] = 1;
+        }
+    }
+}
+
+/* Three colours and their coverages: of these, those that differ. */
+enum { SMOOTHED = WO_PART_COVERAGE + 3 };
+
+static int planes_of(const wo_hybrid *h)
+{
+    return h->scene->lens->colours ? SMOOTHED : WO_PART_COVERAGE + 1;
+}
+
+/* The parts with near and far smoothed. */
+static void add_up_smooth(const wo_hybrid *h, const wo_hybrid_cell *cell, int32_t left, int32_t low,
+                          colours out)
+{
+    const wo_hybrid_kernel *const near_kernel = &h->kernels[cell->near];
+    block near[SMOOTHED];
+    block far[SMOOTHED];
+    smooth(h, near_kernel, left, low, WO_HYBRID_NEAR, planes_of(h), near);
+    if (cell->far > 0)
+        smooth(h, &h->kernels[cell->far], left, low, WO_HYBRID_FAR, planes_of(h), far);
+    for (int y = 0; y < WO_HYBRID_CELL; y++) {
+        for (int x = 0; x < WO_HYBRID_CELL; x++) {
+            const ptrdiff_t at = (low + y) * h->width + left + x;
+            float behind[4];
+            float open[4];
+            float covered[4];
+            for (int k = 0; k < 3; k++) {
+                const int a = h->scene->lens->colours ? WO_PART_COVERAGE + k : WO_PART_COVERAGE;
+                behind[k] = h->plane[WO_HYBRID_REST + k][at];
+                /* What is far keeps its part of the light and takes its colour from around. */
+                if (cell->far > 0 && far[a][y][x] > OPEN_MIN)
+                    behind[k] += coverage_at(h, WO_HYBRID_FAR, k, at) * far[k][y][x] / far[a][y][x];
+                else
+                    behind[k] += h->plane[WO_HYBRID_FAR + k][at];
+                open[k] = 1 - coverage_at(h, WO_HYBRID_NEAR, k, at);
+                covered[k] = fminf(fmaxf(near[a][y][x], 0), 1);
+            }
+            behind[3] = h->plane[WO_HYBRID_REST + 3][at] + mean_coverage(h, WO_HYBRID_FAR, at);
+            open[3] = 1 - mean_coverage(h, WO_HYBRID_NEAR, at);
+            covered[3] = mean_of(covered[0], covered[1], covered[2]);
+            const bool closed = fminf(fminf(open[0], open[1]), open[2]) < OPEN_MIN;
+            if (closed)
+                look_around(h, near_kernel, left + x, low + y, behind);
+            float *const c = out[y][x];
+            for (int k = 0; k < 4; k++)
+                c[k] = (k < 3 ? near[k][y][x] : covered[3]) +
+                       (1 - covered[k]) * (closed ? behind[k] : behind[k] / open[k]);
+            if (h->plane[WO_HYBRID_LEFT][at] == 0)
+                c[3] = 1;
+        }
+    }
+}
+
+static float root(float x)
+{
+    return copysignf(sqrtf(fabsf(x)), x);
+}
+
+/* The estimate of noise in one cell may be too small by this. */
+#define JITTER_TRUST 4.0f
+
+/* Smoothing takes noise away, and detail. Their sum is what it moves; the part of it that noise
+   explains is taken (James and Stein 1961). */
+static float part_of_noise(const wo_hybrid_cell *cell, colours own, colours smoothed)
+{
+    float moved = 0;
+    for (int y = 0; y < WO_HYBRID_CELL; y++) {
+        for (int x = 0; x < WO_HYBRID_CELL; x++) {
+            for (int k = 0; k < 3; k++) {
+                const float d = root(own[y][x][k]) - root(smoothed[y][x][k]);
+                moved += d * d;
+            }
+        }
+    }
+    moved *= 1.0f / (3 * WO_HYBRID_CELL * WO_HYBRID_CELL);
+    const float noise = JITTER_TRUST * cell->jitter;
+    return moved <= noise ? 1 : noise / moved;
+}
 
 void wo_hybrid_join(const wo_hybrid *h, int32_t tx, int32_t ty, wo_tile_pixels *pixels,
                     wo_tile_facts *facts)
@@ -203,55 +303,25 @@ void wo_hybrid_join(const wo_hybrid *h, int32_t tx, int32_t ty, wo_tile_pixels *
         const int32_t left = tx * WO_TILE_WIDTH - h->area.x1 + x0;
         const wo_hybrid_cell *const cell =
             &h->cells[(ptrdiff_t)(low / WO_HYBRID_CELL) * h->columns + left / WO_HYBRID_CELL];
-        const wo_hybrid_kernel *const near_kernel = &h->kernels[cell->near];
-        const wo_hybrid_kernel *const far_kernel = &h->kernels[cell->far];
-        block near[4];
-        block far[4];
-        if (cell->near > 0)
-            smooth(h, near_kernel, left, low, WO_HYBRID_NEAR, 4, near);
-        if (cell->far > 0)
-            smooth(h, far_kernel, left, low, WO_HYBRID_FAR, 4, far);
-        const float noise =
-            cell->noise[0] * near_kernel->gain + cell->noise[1] * far_kernel->gain + cell->noise[2];
+        colours own;
+        colours smoothed;
+        add_up(h, left, low, own);
+        float part = 0;
+        if (cell->near > 0 || cell->far > 0) {
+            add_up_smooth(h, cell, left, low, smoothed);
+            part = part_of_noise(cell, own, smoothed);
+        }
+        const float near = 1 - part * (1 - h->kernels[cell->near].gain);
+        const float far = 1 - part * (1 - h->kernels[cell->far].gain);
+        const float noise = cell->noise[0] * near + cell->noise[1] * far + cell->noise[2];
         for (int y = 0; y < WO_HYBRID_CELL; y++) {
             for (int x = 0; x < WO_HYBRID_CELL; x++) {
-                const ptrdiff_t at = (low + y) * h->width + left + x;
-                float n[4];
-                float behind[4];
-                for (int k = 0; k < 4; k++) {
-                    const float own = h->plane[WO_HYBRID_FAR + k][at];
-                    n[k] = h->plane[WO_HYBRID_NEAR + k][at];
-                    behind[k] = h->plane[WO_HYBRID_REST + k][at];
-                    if (cell->far > 0 && k < 3 && far[3][y][x] > OPEN_MIN)
-                        behind[k] += h->plane[WO_HYBRID_FAR + 3][at] * far[k][y][x] / far[3][y][x];
-                    else
-                        behind[k] += own;
-                }
-                float empty = h->plane[WO_HYBRID_LEFT][at];
-                if (cell->near > 0) {
-                    const float open = 1 - n[3];
-                    const float covered = fminf(fmaxf(near[3][y][x], 0), 1);
-                    for (int k = 0; k < 4; k++)
-                        n[k] = near[k][y][x];
-                    if (open < OPEN_MIN) {
-                        look_around(h, near_kernel, left + x, low + y, behind);
-                        for (int k = 0; k < 4; k++)
-                            behind[k] *= 1 - covered;
-                        empty = empty > 0 ? fmaxf(1 - covered - behind[3], 0) : 0;
-                    } else {
-                        const float scale = (1 - covered) / open;
-                        for (int k = 0; k < 4; k++)
-                            behind[k] *= scale;
-                        empty *= scale;
-                    }
-                }
                 float *const c = pixels->c[y][x0 + x];
-                for (int k = 0; k < 3; k++)
-                    c[k] = n[k] + behind[k];
-                c[3] = 1 - empty;
-                if (cell->near > 0 || cell->far > 0)
-                    keep_within_noise(h, at, cell->own_noise, c);
-                pixels->guessed[y][x0 + x] = h->plane[WO_HYBRID_GUESSED][at];
+                for (int k = 0; k < 4; k++)
+                    c[k] = part > 0 ? own[y][x][k] + part * (smoothed[y][x][k] - own[y][x][k])
+                                    : own[y][x][k];
+                pixels->guessed[y][x0 + x] =
+                    h->plane[WO_HYBRID_GUESSED][(low + y) * h->width + left + x];
                 facts->error[y][x0 + x] = (float)WO_HALVES_TO_ERROR * sqrtf(noise);
                 facts->rays[y][x0 + x] = h->rays[tile];
             }

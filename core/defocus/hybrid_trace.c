@@ -6,23 +6,20 @@
 #include <math.h>
 #include <string.h>
 
+/* Near, far, rest, jitter. */
+enum { NOISES = WO_HYBRID_PLANES - WO_HYBRID_NOISE };
+
 /* One pixel of sums, each part divided by the light of its colour. */
 typedef struct split {
     float c[4];
     float near[WO_PART_SUMS], far[WO_PART_SUMS];
 } split;
 
-/* Channel whose weight a part has. */
-static int channel_of(int k)
-{
-    return k < 3 ? k : 3;
-}
-
 static void part_of(const wo_march_sums *sums, int i, const float sum[WO_PART_SUMS][WO_LANES],
                     float out[WO_PART_SUMS])
 {
     for (int k = 0; k < WO_PART_SUMS; k++) {
-        const float weight = sums->weight[channel_of(k)][i];
+        const float weight = sums->weight[k < WO_PART_BLUR ? k % 3 : 3][i];
         out[k] = weight > 0 ? sum[k][i] / weight : 0;
     }
 }
@@ -38,8 +35,11 @@ static void split_single(const wo_tile_work *work, split *s)
         if (!near && !(b.v_max < -work->view.v_apart))
             continue;
         float *const part = near ? s->near : s->far;
-        memcpy(part, s->c, sizeof s->c);
-        part[4] = s->c[3] / fabsf(0.5f * (b.v_min + b.v_max));
+        for (int k = 0; k < 3; k++) {
+            part[k] = s->c[k];
+            part[WO_PART_COVERAGE + k] = s->c[3];
+        }
+        part[WO_PART_BLUR] = s->c[3] / fabsf(0.5f * (b.v_min + b.v_max));
     }
 }
 
@@ -60,17 +60,20 @@ static bool split_pixel(const wo_tile_work *work, const wo_march_sums *sums, int
 
 /* Squares of the noise of the parts, from two halves of the rays. Coverage and colour of a part
    err together: what counts is the part against that which fills the light left by it. */
-static void noise_of(const split *all, const split *a, const split *b, float noise[3])
+static void noise_of(const split *all, const split *a, const split *b, float noise[NOISES])
 {
-    const float open = 1 - all->near[3];
-    const float far_a = all->far[3];
     for (int k = 0; k < 3; k++) {
+        const int a_k = WO_PART_COVERAGE + k;
+        const float open = 1 - all->near[a_k];
+        const float far_a = all->far[a_k];
         const float behind = open > 1e-3f ? (all->c[k] - all->near[k]) / open : all->near[k];
         const float beyond = far_a > 1e-3f ? all->far[k] / far_a : 0;
-        const float near = a->near[k] - b->near[k] - behind * (a->near[3] - b->near[3]);
-        const float far = a->far[k] - b->far[k] - beyond * (a->far[3] - b->far[3]);
+        const float near = a->near[k] - b->near[k] - behind * (a->near[a_k] - b->near[a_k]);
+        const float far = a->far[k] - b->far[k] - beyond * (a->far[a_k] - b->far[a_k]);
         const float rest = a->c[k] - b->c[k] - near - far;
         const float d[3] = {near, far, rest};
+        const float root = 0.25f * (near + far) / sqrtf(fmaxf(fabsf(all->c[k]), 1e-4f));
+        noise[3] += root * root * (1.0f / 3);
         const float slope = wo_shown(a->c[k], b->c[k]);
         for (int n = 0; n < 3; n++) {
             const float e = 0.5f * slope * d[n];
@@ -79,29 +82,38 @@ static void noise_of(const split *all, const split *a, const split *b, float noi
     }
 }
 
-static void put(wo_hybrid *h, ptrdiff_t at, const split *s, float guessed, const float noise[3])
+/* Over red, green and blue; the same to the bit where they agree. */
+static float mean_coverage(const float part[WO_PART_SUMS])
+{
+    const float *const a = part + WO_PART_COVERAGE;
+    return a[0] == a[1] && a[1] == a[2] ? a[0] : (a[0] + a[1] + a[2]) * (1.0f / 3);
+}
+
+static void put(wo_hybrid *h, ptrdiff_t at, const split *s, float guessed,
+                const float noise[NOISES])
 {
     for (int k = 0; k < WO_PART_SUMS; k++) {
         h->plane[WO_HYBRID_NEAR + k][at] = s->near[k];
         h->plane[WO_HYBRID_FAR + k][at] = s->far[k];
     }
-    for (int k = 0; k < 4; k++)
+    for (int k = 0; k < 3; k++)
         h->plane[WO_HYBRID_REST + k][at] = s->c[k] - s->near[k] - s->far[k];
+    h->plane[WO_HYBRID_REST + 3][at] = s->c[3] - mean_coverage(s->near) - mean_coverage(s->far);
     h->plane[WO_HYBRID_LEFT][at] = 1 - s->c[3];
     h->plane[WO_HYBRID_GUESSED][at] = guessed;
-    for (int n = 0; n < 3; n++)
+    for (int n = 0; n < NOISES; n++)
         h->plane[WO_HYBRID_NOISE + n][at] = noise[n];
 }
 
 /* The parts of a pixel, and what its halves say of their noise. */
 static void look_at(const wo_tile_work *work, const wo_tile_sums *sums, int32_t row, int run_index,
-                    int i, split *all, float noise[3])
+                    int i, split *all, float noise[NOISES])
 {
     const wo_march_sums *const halves = sums->halves[row][run_index];
     wo_march_sums both = halves[0];
     wo_march_add(&both, &halves[1]);
     split half[2];
-    noise[0] = noise[1] = noise[2] = 0;
+    memset(noise, 0, NOISES * sizeof *noise);
     if (split_pixel(work, &both, row, run_index, i, all) && sums->rays > 1 &&
         split_pixel(work, &halves[0], row, run_index, i, &half[0]) &&
         split_pixel(work, &halves[1], row, run_index, i, &half[1]))
@@ -120,14 +132,14 @@ static double error_of(void *user, const wo_tile_work *work, const wo_tile_sums 
         for (int32_t row = 0; row < WO_TILE_HEIGHT; row++) {
             for (int x = x0; x < x0 + WO_HYBRID_CELL; x++) {
                 split s;
-                float one[3];
+                float one[NOISES];
                 look_at(work, sums, row, x % WO_PHASES, x / WO_PHASES, &s, one);
                 for (int n = 0; n < 3; n++)
                     noise[n] += (double)one[n];
-                for (int n = 0; n < 2; n++) {
-                    near[n] += (double)s.near[3 + n];
-                    far[n] += (double)s.far[3 + n];
-                }
+                near[0] += (double)mean_coverage(s.near);
+                near[1] += (double)s.near[WO_PART_BLUR];
+                far[0] += (double)mean_coverage(s.far);
+                far[1] += (double)s.far[WO_PART_BLUR];
             }
         }
         const int near_kernel = wo_hybrid_kernel_for(h, true, sums->rays, near[0], near[1]);
@@ -164,7 +176,7 @@ bool wo_hybrid_trace(wo_hybrid *h, int32_t tx, int32_t ty, wo_report *part)
             const int i = x / WO_PHASES;
             const wo_march_sums *const halves = sums.halves[row][run_index];
             split all;
-            float noise[3];
+            float noise[NOISES];
             look_at(&work, &sums, row, run_index, i, &all, noise);
             put(h, origin + row * h->width + x, &all,
                 (halves[0].guessed[i] + halves[1].guessed[i]) / (float)sums.scale, noise);

@@ -118,10 +118,13 @@ WO_SIMD void add_part(vf sum[WO_PART_SUMS], const vf scale[4], vm mask, vf light
                       const vf c[4])
 {
     light = v_mask(mask, light);
-    for (int k = 0; k < 4; k++)
-        sum[k] = v_fma(v_mul(light, scale[k]), c[k], sum[k]);
+    for (int k = 0; k < 3; k++) {
+        const vf part = v_mul(light, scale[k]);
+        sum[k] = v_fma(part, c[k], sum[k]);
+        sum[WO_PART_COVERAGE + k] = v_fma(part, c[3], sum[WO_PART_COVERAGE + k]);
+    }
     const vf stopped = v_mul(v_mul(light, scale[3]), c[3]);
-    sum[4] = v_add(sum[4], v_mask(mask, v_div(stopped, v_abs(v))));
+    sum[WO_PART_BLUR] = v_add(sum[WO_PART_BLUR], v_mask(mask, v_div(stopped, v_abs(v))));
 }
 
 /* light: what arrives at a surface at vergence v. p: NULL = parts are not wanted. */

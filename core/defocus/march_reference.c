@@ -48,9 +48,11 @@ typedef struct ray_sums {
 
 static void add_part(double sum[WO_PART_SUMS], double light, double v, const double c[4])
 {
-    for (int k = 0; k < 4; k++)
+    for (int k = 0; k < 3; k++) {
         sum[k] += light * c[k];
-    sum[4] += light * c[3] / fabs(v);
+        sum[WO_PART_COVERAGE + k] += light * c[3];
+    }
+    sum[WO_PART_BLUR] += light * c[3] / fabs(v);
 }
 
 static void trace(const wo_march_view *view, int32_t x, int32_t y, const wo_pencil *pencil, int n,
@@ -152,8 +154,8 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
                 weight[k] += w[k] * ray.weight;
             }
             for (int k = 0; k < WO_PART_SUMS; k++) {
-                near[k] += w[k < 3 ? k : 3] * ray.near[k];
-                far[k] += w[k < 3 ? k : 3] * ray.far[k];
+                near[k] += w[k < WO_PART_BLUR ? k % 3 : 3] * ray.near[k];
+                far[k] += w[k < WO_PART_BLUR ? k % 3 : 3] * ray.far[k];
             }
             guessed += w[3] * ray.guessed;
         }

@@ -33,8 +33,9 @@ static const char *const outputs[] = {"image", "coc",     "depth",      "rays",
 static const char *const output_labels[] = {
     "Image", "Circle of confusion", "Depth", "Rays", "Error", "Guessed", "Focus plane", NULL};
 
-static const char *const methods[] = {"hybrid", "rays", "filter", "accumulate", "reference", NULL};
-static const char *const method_labels[] = {"Hybrid",     "Rays",      "Filter",
+static const char *const methods[] = {"hybrid",     "rays",      "filter", "spread",
+                                      "accumulate", "reference", NULL};
+static const char *const method_labels[] = {"Hybrid",     "Rays",      "Filter", "Spread",
                                             "Accumulate", "Reference", NULL};
 static const char *const samplings[] = {"fixed", "adaptive", NULL};
 static const char *const sampling_labels[] = {"Fixed", "Adaptive", NULL};
@@ -258,14 +259,13 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .group = "quality",
      .help =
          "How the blur is made. Hybrid: lens rays, and smoothing of what is far out of focus, as "
-         "much "
-         "as its own blur allows: the best picture for the time. Rays: lens rays alone. Filter: "
-         "every pixel gathers what blurs over it, from its neighbours and from as "
-         "many taps as there are samples on each side of the focus; at 64 samples some 4 times as "
-         "fast as rays, good for previews; it keeps two surfaces a pixel, and draws no colour "
-         "fringes. Accumulate: whole pictures, each seen from one point of the lens, the "
-         "same points for all pixels: what rays show as noise it shows as faint ghosts. "
-         "Reference: rays by brute force, some 25 times slower, for checking.",
+         "much as its own blur allows: the best picture for the time. Rays: lens rays alone. "
+         "Filter: every pixel gathers what blurs over it; the fastest, for previews. Spread: "
+         "every pixel's light is spread over its circle of confusion, distance by distance: no "
+         "noise; Samples sets how finely distances are told apart. Accumulate: whole "
+         "pictures, each seen from one point of the lens, the same points for all pixels: what "
+         "rays show as noise it shows as faint ghosts. Reference: rays by brute force, some 25 "
+         "times slower, for checking.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(method),
      .initial = {WO_METHOD_HYBRID},

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
+#include "defocus/renderer.h"
 #include "near.h"
 #include "optics/lens_choice.h"
 #include "scenes.h"
@@ -60,9 +61,10 @@ static scene two_layers(void)
     return s;
 }
 
-static void fail_each_allocation(int32_t lens)
+static void fail_each_allocation(int32_t lens, int32_t method)
 {
     scene s = two_layers();
+    s.params.method = method;
     s.params.lens = lens;
     s.params.wavelengths = 3;
     const wo_plan_args args = scene_args(&s, small);
@@ -110,8 +112,10 @@ static void fail_each_allocation(int32_t lens)
 static void every_allocation_fails_once(void **state)
 {
     (void)state;
-    fail_each_allocation(WO_LENS_THIN);
-    fail_each_allocation(WO_LENS_THICK);
+    for (int32_t method = 0; method < WO_METHOD_COUNT; method++) {
+        fail_each_allocation(WO_LENS_THIN, method);
+        fail_each_allocation(WO_LENS_THICK, method);
+    }
 }
 
 static void the_limit_of_one_allocation(void **state)
@@ -152,15 +156,16 @@ static void stopped_at_every_poll(void **state)
 {
     (void)state;
     scene s = two_layers();
-    wo_image want = scene_render(&s, NULL);
     const unsigned threads[] = {1, 3};
-    for (size_t t = 0; t < WO_COUNT(threads); t++) {
+    for (size_t t = 0; t < 2 * WO_METHOD_COUNT; t++) {
+        s.params.method = (int32_t)(t / 2);
+        wo_image want = scene_render(&s, NULL);
         long polls = 1;
         for (long n = 0; n <= polls; n += 1 + polls / 40) {
             bank b;
             stopper stop = {.stop_at = n == 0 ? 1000000 : n - 1};
             wo_context context = context_of(&b, -1);
-            context.runner = threads_runner(&threads[t]);
+            context.runner = threads_runner(&threads[t % 2]);
             context.abort_user = &stop;
             context.aborted = aborted;
             wo_image out = picture_make(small, 4);
@@ -179,8 +184,8 @@ static void stopped_at_every_poll(void **state)
             assert_int_equal(atomic_load(&b.live), 0);
             picture_free(&out);
         }
+        picture_free(&want);
     }
-    picture_free(&want);
     scene_free(&s);
 }
 
