@@ -103,7 +103,7 @@ static const knob knobs[] = {
     {"samples", "16 64", "method=rays", PLAIN},
     {"samples", "16 64", "method=spread", PLAIN},
     {"seed", "0 1", "", PLAIN},
-    {"maxRadius", "0 3 100", "", PLAIN},
+    {"maxRadius", "0 3 20", "", PLAIN},
     {"output", NULL, "", PLAIN},
 };
 
@@ -179,7 +179,7 @@ static void make_scene(scene *s, unsigned what)
     scene_init(s, (wo_rect){0, 0, 64, 40});
     scene_fill_layers(s, 5);
     add_clips(s, what);
-    set_all(&s->params, "focalLength=200 samples=16");
+    set_all(&s->params, "focalLength=200 samples=16 maxRadius=20");
     rng r = {11};
     for (int i = 0; i < WO_FOCUS_POINTS; i++) {
         s->params.focus_point[i][0] = rng_range(&r, 4, 60);
