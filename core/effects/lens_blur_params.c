@@ -24,14 +24,13 @@ const wo_param_group wo_lens_blur_groups[WO_LENS_BLUR_GROUPS] = {
 static const char *const depth_modes[] = {WO_DEPTH_MODE_LIST(DEPTH_KEY) NULL};
 static const char *const depth_mode_labels[] = {WO_DEPTH_MODE_LIST(DEPTH_LABEL) NULL};
 static const char *const channels[] = {"red", "green", "blue", "alpha", NULL};
-static const char *const channel_labels[] = {"Red or single channel", "Green", "Blue", "Alpha",
-                                             NULL};
+static const char *const channel_labels[] = {"Red", "Green", "Blue", "Alpha", NULL};
 static const char *const forms[] = {"iris", "star", "heart", NULL};
 static const char *const form_labels[] = {"Iris", "Star", "Heart", NULL};
 static const char *const outputs[] = {"image", "coc",     "depth",      "rays",
                                       "error", "guessed", "focusPlane", NULL};
-static const char *const output_labels[] = {
-    "Image", "Circle of confusion", "Depth", "Rays", "Error", "Guessed", "Focus plane", NULL};
+static const char *const output_labels[] = {"Image", "CoC",     "Depth",       "Rays",
+                                            "Error", "Guessed", "Focus plane", NULL};
 
 static const char *const methods[] = {"hybrid", "rays", "filter", "spread", "reference", NULL};
 static const char *const method_labels[] = {"Hybrid", "Rays",      "Filter",
@@ -159,8 +158,10 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .label = "Depth is",
      .unit = "",
      .group = "depth",
-     .help = "What the numbers of the Depth clips mean. Zero, negative and non-finite distances "
-             "are infinitely far.",
+     .help =
+         "What the numbers of the Depth clips mean. Distance: along the axis. Inverse: one over "
+         "it. Ray: distance from the camera. Normalised: 0 is Near, 1 is Far. Zero, negative "
+         "and non-finite distances are infinitely far.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(depth_mode),
      .initial = {WO_DEPTH_DISTANCE},
@@ -215,7 +216,7 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .unit = "",
      .group = "depth",
      .help = "Channel of the Depth clips that holds the depth. Clips with fewer channels give "
-             "their last one.",
+             "their last one: Red suits those of one.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(depth_channel),
      .initial = {0},
