@@ -30,6 +30,10 @@ typedef double wo_tile_error(void *user, const wo_tile_work *work, const wo_tile
 bool wo_tile_sample(const wo_defocus *scene, wo_tile_work *work, wo_tile_error *error, void *user,
                     wo_tile_sums *sums, wo_report *report);
 
+/* The level whose rays, after those that were traced (the last of them at level last), are likely
+   to bring an error that is too_large times the target down to it; -1 = none is left. */
+int wo_next_level(const wo_defocus *scene, int last, double rays, double too_large);
+
 /* Displayed value per light about the mean of a and b, which differ by noise. */
 float wo_shown(float a, float b);
 

@@ -20,7 +20,7 @@
 
 /* What the rays leave of a pixel, as fractions of all light: one plane of floats each. */
 enum {
-    WO_HYBRID_NEAR,                                /* r g b a, and a over vergence */
+    WO_HYBRID_NEAR,                                /* as WO_PART_* */
     WO_HYBRID_FAR = WO_HYBRID_NEAR + WO_PART_SUMS, /* the same behind the focus */
     WO_HYBRID_REST = WO_HYBRID_FAR + WO_PART_SUMS, /* r g b a of what is neither */
     WO_HYBRID_LEFT = WO_HYBRID_REST + 4,           /* light that nothing stopped */
@@ -65,6 +65,7 @@ typedef struct wo_hybrid {
     wo_rect area;  /* of these tiles, px */
     ptrdiff_t width;
     float *memory;
+    /* Coverage is one plane for all colours if the lens does not part them. */
     float *plane[WO_HYBRID_PLANES];
     float *rays;     /* [tiles] a pixel */
     uint8_t *wanted; /* [tiles] */

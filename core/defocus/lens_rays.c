@@ -129,18 +129,32 @@ static wo_march_view view_of(const wo_lens_rays *rays, const wo_ray_tile *tile)
     return view;
 }
 
-/* Colour straight through the pixel, for a pixel all of whose rays were lost, or all of one
-   colour's in a corner that few rays reach. */
+/* Colour straight through the pixel, nearest surface first, for a pixel all of whose rays were
+   lost, or all of one colour's in a corner that few rays reach. As for a ray: where the scene is
+   opaque, what was not stopped does not count. */
 static void straight_through(const wo_march_view *view, ptrdiff_t at, float c[4])
 {
-    float best = -INFINITY;
-    for (int s = 0; s < view->sheets; s++) {
-        if (!(view->v[s][at] > best))
-            continue;
-        best = view->v[s][at];
-        for (int k = 0; k < 4; k++)
-            c[k] = view->c[s][k][at];
+    float sum[3] = {0};
+    float light = 1;
+    float last = INFINITY;
+    for (int i = 0; i < view->sheets && light > WO_LIGHT_MIN; i++) {
+        int next = -1;
+        for (int s = 0; s < view->sheets; s++)
+            if (view->v[s][at] < last && (next < 0 || view->v[s][at] > view->v[next][at]))
+                next = s;
+        if (next < 0)
+            break;
+        last = view->v[next][at];
+        for (int k = 0; k < 3; k++)
+            sum[k] += light * view->c[next][k][at];
+        light -= light * view->c[next][3][at];
     }
+    const float stopped = 1 - light;
+    const bool ends = light <= WO_LIGHT_MIN || view->opaque[at] > 0.5f;
+    const float weight = ends ? stopped : 1;
+    for (int k = 0; k < 3; k++)
+        c[k] = weight > 0 ? sum[k] / weight : 0;
+    c[3] = weight > 0 ? stopped / weight : 0;
 }
 
 void wo_march_add(wo_march_sums *total, const wo_march_sums *part)
@@ -174,7 +188,7 @@ bool wo_tile_work_pixel(const wo_tile_work *work, const wo_march_sums *sums, int
     for (int k = 0; k < 4; k++)
         if (sums->weight[k][i] > 0)
             c[k] = sums->c[k][i] / sums->weight[k][i];
-    c[3] = fminf(c[3], 1);
+    c[3] = fminf(fmaxf(c[3], 0), 1);
     return !lost;
 }
 

@@ -28,12 +28,14 @@ typedef struct wo_lens_rays {
 
 /* px that a ray looks beyond its reach: interpolation and rounding. */
 #define WO_RAYS_MARGIN 3
+/* The same for stacks: pieces and coarser levels (pieces.h) look at whole cells beyond that. */
+#define WO_STACK_MARGIN 20
 
 /* Tiles of the absolute grid that touch r, in units of tiles. */
 wo_rect wo_tiles_of(wo_rect r);
 
 /* Classes for the tiles that touch window. max_reach: no ray goes farther, px; the stack must hold
-   those tiles grown by max_reach + WO_RAYS_MARGIN. */
+   those tiles grown by max_reach + WO_STACK_MARGIN. */
 WO_NODISCARD wo_status wo_lens_rays_create(const wo_context *context, const wo_stack *stack,
                                            const wo_lens *lens, wo_rect window, double max_reach,
                                            wo_lens_rays *rays, wo_error *error);

@@ -18,6 +18,9 @@ enum { INNER = 2 };
 /* Circles of a side of the focus smaller than this part of the largest need taps of their own, more
    of them towards the middle. */
 #define ALIKE 0.6f
+/* A lens that leaves more than this in its best focus has no circle of confusion that one disc
+   could stand for: its tiles are given to the rays. px */
+#define REST_MAX 1.0f
 /* A tap beyond the tile's own reach would leave the stack: rounding and soft edges. px */
 enum { BEYOND = 2 };
 
@@ -84,12 +87,18 @@ static void find_sides(tile_job *t)
     t->inner = fminf(t->sides[0].least, t->sides[1].least) < INNER_LAST;
 }
 
-/* px over the extent of the aperture towards (x, y). */
-static float in_extents(const wo_filter_shape *shape, float x, float y)
+/* A distance in px as filter.h wants it: over the extent of the aperture in its direction, but for
+   the first px, so that what is in focus reaches no neighbour, whatever the shape. */
+static float in_extents(float away, float outer)
+{
+    return away < 1 ? away : 1 + (away - 1) / outer;
+}
+
+static float offset_in_extents(const wo_filter_shape *shape, float x, float y)
 {
     if (x == 0 && y == 0)
         return 0;
-    return hypotf(x, y) / shape->outer[wo_filter_bin(x, y)];
+    return in_extents(hypotf(x, y), shape->outer[wo_filter_bin(x, y)]);
 }
 
 static bool is_inner(int x, int y)
@@ -105,8 +114,8 @@ static void inner_taps(const tile_job *t, wo_filter_taps *taps)
     taps->count = 0;
     for (int y = -INNER; y <= INNER; y++) {
         for (int x = -INNER; x <= INNER; x++) {
-            const float away = in_extents(shape, (float)x, (float)y);
-            const float back = in_extents(shape, (float)-x, (float)-y);
+            const float away = offset_in_extents(shape, (float)x, (float)y);
+            const float back = offset_in_extents(shape, (float)-x, (float)-y);
             if (!is_inner(x, y) || fminf(away, back) > most)
                 continue;
             const int i = taps->count++;
@@ -126,11 +135,13 @@ static void ray_taps(tile_job *t, int which, const wo_pencil *pencil)
     const wo_filter_shape *shape = t->shape;
     const side *s = &t->sides[which];
     wo_filter_taps *taps = &t->taps;
-    const float radius = wo_filter_reach(s->most) + 0.5f;
+    float reach;
+    float share;
+    wo_filter_disc(&t->job->filter.discs, s->most, 0, &reach, &share);
     const bool alike = s->least > ALIKE * s->most;
     const float sign = which == 0 ? 1.0f : -1.0f;
     const float rays = (float)t->job->scene->lens->count * shape->lit;
-    const float area = 3.14159265f * radius * radius * (1 - shape->hole * shape->hole) / rays;
+    const float area = 3.14159265f * (1 - shape->hole * shape->hole) / rays;
     taps->count = 0;
     for (int n = 0; n < pencil->count; n++) {
         const float bx = pencil->bx[n];
@@ -146,7 +157,8 @@ static void ray_taps(tile_job *t, int which, const wo_pencil *pencil)
         const float rho = fminf(b / (shape->ppd * outer), 1);
         /* Drawn evenly over the area, or evenly along the radius. */
         const float at = alike ? rho : rho * rho;
-        const float away = at * radius * outer;
+        const float farthest = (reach - 0.5f) * outer + 1;
+        const float away = at * farthest;
         const int dx = (int)lrintf(sign * away * bx / b);
         const int dy = (int)lrintf(sign * away * by / b);
         if (t->inner && is_inner(dx, dy))
@@ -157,9 +169,11 @@ static void ray_taps(tile_job *t, int which, const wo_pencil *pencil)
         taps->dx[i] = dx;
         taps->dy[i] = dy;
         taps->away[i] = away;
-        taps->before[i] = which == 0 ? at * radius : INFINITY;
-        taps->behind[i] = which == 1 ? at * radius : INFINITY;
-        taps->area[i] = weight * area * (alike ? 1 : 2 * at);
+        const float extents = in_extents(away, outer);
+        taps->before[i] = which == 0 ? extents : INFINITY;
+        taps->behind[i] = which == 1 ? extents : INFINITY;
+        const float scale = farthest / outer;
+        taps->area[i] = weight * area * scale * scale * (alike ? 1 : 2 * at);
     }
 }
 
@@ -175,7 +189,6 @@ typedef struct picture {
    holds: it does not count. neighbours: sums without the taps. */
 static void compose(const wo_filter_sums *sums, const wo_filter_sums *neighbours, picture *out)
 {
-    const float per_area = sums->area > 0 ? 1 / sums->area : 0;
     for (int i = 0; i < WO_LANES; i++) {
         const float before = sums->c[WO_FILTER_BEFORE][3][i];
         const float own = sums->c[WO_FILTER_OWN][3][i];
@@ -198,8 +211,9 @@ static void compose(const wo_filter_sums *sums, const wo_filter_sums *neighbours
                               w_own * sums->guessed[WO_FILTER_OWN][i] +
                               w_behind * sums->guessed[WO_FILTER_BEHIND][i];
         const float all = sum[3] < 1 ? sum[3] : 1;
-        const float open = sums->open[i] * per_area;
-        const float norm = all + (1 - all) * open;
+        const float lost = sums->own_open[i] ? 1 : sums->open[i] * sums->own_share[i];
+        const float open = lost < 1 - all ? lost : 1 - all;
+        const float norm = all + open;
         const float scale = norm > LEAST_LIGHT ? 1 / norm : 0;
         for (int k = 0; k < 3; k++)
             out->c[k][i] = sum[k] * scale;
@@ -285,17 +299,22 @@ static bool gather_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_
     const wo_defocus *scene = job->scene;
     const wo_ray_tile *tile = wo_lens_rays_at(scene->rays, tx, ty);
     memset(facts, 0, sizeof *facts);
-    if (tile->class == WO_TILE_EMPTY || tile->class == WO_TILE_SHARP) {
-        for (int i = 0; tile->class == WO_TILE_SHARP && i < WO_TILE_WIDTH * WO_TILE_HEIGHT; i++)
-            facts->rays[i / WO_TILE_WIDTH][i % WO_TILE_WIDTH] = 1;
+    const bool plain = tile->class == WO_TILE_EMPTY || tile->class == WO_TILE_SHARP;
+    const wo_filter_shape *shape =
+        plain ? NULL : wo_filter_shape_at(&job->filter, tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT);
+    if (plain || shape->rest > REST_MAX) {
+        const float rays = tile->class == WO_TILE_EMPTY   ? 0
+                           : tile->class == WO_TILE_SHARP ? 1
+                                                          : (float)scene->lens->count;
+        for (int i = 0; i < WO_TILE_WIDTH * WO_TILE_HEIGHT; i++)
+            facts->rays[i / WO_TILE_WIDTH][i % WO_TILE_WIDTH] = rays;
         return wo_lens_rays_tile(scene->rays, scene->context, tx, ty, pixels, part);
     }
     memset(pixels, 0, sizeof *pixels);
     part->tiles[tile->class]++;
-    tile_job t = {.job = job, .tile = tile, .limit = reach_of(tile)};
+    tile_job t = {.job = job, .tile = tile, .shape = shape, .limit = reach_of(tile)};
     t.rect = (wo_rect){tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT, (tx + 1) * WO_TILE_WIDTH,
                        (ty + 1) * WO_TILE_HEIGHT};
-    t.shape = wo_filter_shape_at(&job->filter, t.rect.x1, t.rect.y1);
     t.view = wo_filter_view_of(&job->filter, wo_rect_grow(t.rect, t.limit, t.limit));
     t.view.hole = t.shape->hole;
     find_sides(&t);

@@ -12,6 +12,13 @@ static wo_rect tiles_of(const wo_defocus *scene, const wo_frame *frame)
     return wo_tiles_of(wo_rect_intersect(r, scene->extent));
 }
 
+/* Coverage is the same for all colours if the lens does not part them. */
+static bool is_shared(const wo_defocus *scene, int plane)
+{
+    const int part = plane < WO_HYBRID_REST ? plane % WO_PART_SUMS : 0;
+    return !scene->lens->colours && part > WO_PART_COVERAGE && part < WO_PART_BLUR;
+}
+
 static wo_status create(const wo_defocus *scene, const wo_frame *frame, wo_hybrid *h,
                         wo_error *error)
 {
@@ -24,13 +31,19 @@ static wo_status create(const wo_defocus *scene, const wo_frame *frame, wo_hybri
     h->rows = wo_rect_height(h->area) / WO_HYBRID_CELL;
     const size_t pixels = (size_t)h->width * (size_t)wo_rect_height(h->area);
     const size_t tiles = (size_t)wo_rect_width(h->tiles) * (size_t)wo_rect_height(h->tiles);
-    if (!(h->memory = wo_new_large(context, error, pixels, WO_HYBRID_PLANES * sizeof(float))) ||
+    size_t planes = 0;
+    for (int k = 0; k < WO_HYBRID_PLANES; k++)
+        planes += !is_shared(scene, k);
+    if (!(h->memory = wo_new_large(context, error, pixels, planes * sizeof(float))) ||
         !(h->rays = wo_new(context, error, tiles, sizeof *h->rays)) ||
         !(h->cells =
               wo_new(context, error, (size_t)h->columns * (size_t)h->rows, sizeof *h->cells)))
         return WO_ERR_NOMEM;
-    for (size_t k = 0; k < WO_HYBRID_PLANES; k++)
-        h->plane[k] = h->memory + k * pixels;
+    float *next = h->memory;
+    for (int k = 0; k < WO_HYBRID_PLANES; k++) {
+        h->plane[k] = is_shared(scene, k) ? h->plane[k - 1] : next;
+        next += is_shared(scene, k) ? 0 : pixels;
+    }
     wo_hybrid_kernels(h->kernels);
     return WO_OK;
 }

@@ -58,6 +58,7 @@ typedef struct wo_renderer {
     X(WO_METHOD_RAYS, wo_render_rays)                                                              \
     X(WO_METHOD_FILTER, wo_render_filter)                                                          \
     X(WO_METHOD_SPREAD, wo_render_spread)                                                          \
+    X(WO_METHOD_ACCUMULATE, wo_render_accumulate)                                                  \
     X(WO_METHOD_REFERENCE, wo_render_reference)
 
 typedef enum wo_method {

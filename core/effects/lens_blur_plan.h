@@ -34,8 +34,11 @@ struct wo_plan {
     wo_highlights highlights;
     wo_lens_rays rays;
     wo_quality quality;
+    uint8_t *split;   /* over the window, only for the view: WO_SPLIT_* */
     wo_report report; /* of the planning; counted with the first window that is rendered */
 };
+
+enum { WO_SPLIT_NONE, WO_SPLIT_DEPTH, WO_SPLIT_TWO };
 
 wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params,
                                    const wo_plan_args *args, wo_plan **plan, wo_error *error);

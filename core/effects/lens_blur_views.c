@@ -63,6 +63,15 @@ static void guessed(const wo_plan *plan, const wo_frame *frame, int32_t x, int32
     out[3] = out[0];
 }
 
+static void split(const wo_plan *plan, const wo_frame *frame, int32_t x, int32_t y, float out[4])
+{
+    (void)frame;
+    const wo_rect w = plan->window;
+    const size_t at = (size_t)(y - w.y1) * (size_t)wo_rect_width(w) + (size_t)(x - w.x1);
+    show(plan->split ? 0.5 * plan->split[at] : 0, out);
+    out[3] = out[0];
+}
+
 /* Up to this radius of blur a surface counts as in focus, px. */
 #define IN_FOCUS_PX 0.5
 
@@ -84,5 +93,5 @@ const wo_view wo_views[WO_OUTPUT_COUNT] = {
     [WO_OUTPUT_IMAGE] = {true, image},        [WO_OUTPUT_COC] = {false, circle_of_confusion},
     [WO_OUTPUT_DEPTH] = {false, depth},       [WO_OUTPUT_RAYS] = {true, rays},
     [WO_OUTPUT_ERROR] = {true, error},        [WO_OUTPUT_GUESSED] = {true, guessed},
-    [WO_OUTPUT_FOCUS] = {false, focus_plane},
+    [WO_OUTPUT_FOCUS] = {false, focus_plane}, [WO_OUTPUT_SPLIT] = {false, split},
 };

@@ -18,6 +18,7 @@ enum {
     FOUR_DEPTHS = 8,    /* Depth has another depth in each channel */
     UNIT_DEPTH = 16,    /* depth is 0..1 */
     POINT_OUTSIDE = 32, /* point 1 is beside the frame */
+    ANTIALIASED = 64,   /* edges of colour and depth mix what is on both sides */
 };
 
 typedef struct knob {
@@ -62,6 +63,7 @@ static const knob knobs[] = {
     {"far", "5 50", "depthMode=normalised", UNIT_DEPTH},
     {"depthChannel", NULL, "", FOUR_DEPTHS},
     {"layers", "1 2", "", PLAIN},
+    {"edgeRepair", NULL, "", ANTIALIASED},
     {"useMask", NULL, "", WITH_MASK},
     {"blades", "0 3 6", "", PLAIN},
     {"curvature", "-1 0 1", "blades=5", PLAIN},
@@ -94,7 +96,7 @@ static const knob knobs[] = {
     {"bestFocus", NULL, FEW_LINES "lens=singlet", PLAIN},
     {"wavelengths", "1 4", "lens=thick", PLAIN},
     /* The reference shows what rays shows: that is what it is for. */
-    {"method", "hybrid rays filter spread", "", PLAIN},
+    {"method", "hybrid rays filter spread accumulate", "", PLAIN},
     {"method", "hybrid reference", "", PLAIN},
     {"sampling", NULL, "", PLAIN},
     {"targetError", "0.002 0.02", ADAPTIVE, PLAIN},
@@ -146,6 +148,17 @@ static double wave(int32_t x, int32_t y, double phase)
     return 0.5 + 0.5 * sin(phase + 0.11 * x + 0.07 * y);
 }
 
+/* Every pixel and the one to its right, half and half. */
+static void mix_with_neighbours(const wo_image *picture)
+{
+    const wo_rect b = picture->bounds;
+    for (int32_t y = b.y1; y < b.y2; y++)
+        for (int32_t x = b.x1; x < b.x2 - 1; x++)
+            for (int32_t k = 0; k < picture->components; k++)
+                wo_image_at(picture, x, y)[k] =
+                    0.5f * (wo_image_at(picture, x, y)[k] + wo_image_at(picture, x + 1, y)[k]);
+}
+
 static void add_clips(scene *s, unsigned what)
 {
     wo_image *const depth = &s->clip[WO_CLIP_DEPTH];
@@ -167,6 +180,10 @@ static void add_clips(scene *s, unsigned what)
             if (what & UNIT_DEPTH)
                 *wo_image_at(depth, x, y) /= 12;
         }
+    if (what & ANTIALIASED) {
+        mix_with_neighbours(&s->clip[WO_CLIP_SOURCE]);
+        mix_with_neighbours(depth);
+    }
     if (what & WITH_CAMERA) {
         assert_true(wo_camera_read(&s->geometry.camera, "wideopen:focalLength", "150"));
         assert_true(wo_camera_read(&s->geometry.camera, "wideopen:fStop", "2"));
