@@ -38,25 +38,37 @@ pinhole_of() {
 
 # A shot: clips, window (y up) and settings to start from.
 shot() {
-    local folder mask
+    local folder mask unit
     camera=(--no-metadata)
     window=0,0,320,180
     settings=(fStop=0.7 focusDistance=3.3 samples=256)
     case $1 in
     table | near)
         layers_of "$(footage still-life 320x180)"
-        window=70,20,230,110
+        window=90,30,218,102
         [ "$1" = table ] || settings+=(focusDistance=0.25 fStop=8) ;;
+    wide)
+        layers_of "$(footage still-life 320x180)"
+        settings+=(focalLength=20 fStop=0.1) ;;
+    unit) # depth is 0..1 for 0..10 m
+        folder=$(footage still-life 320x180)
+        pinhole_of "$folder"
+        unit=$work/unit.exr
+        [ -e "$unit" ] || "$wideopen" render LensBlur "${clips[@]}" --no-metadata --no-progress \
+            --bits float --set depthScale=10 --set output=depth -o "$unit" 2> /dev/null
+        clips=(--clip "Source=$folder/pinhole.exr" --clip "Depth=$unit:R")
+        settings+=(depthMode=normalised near=1e-6 far=10)
+        window=90,30,218,102 ;;
     metadata)
         pinhole_of "$(footage still-life 320x180)"
         camera=() settings=(samples=256) ;;
     floor | points | clip)
         folder=$(footage slanted-plane 320x180)
         pinhole_of "$folder"
-        settings=(fStop=0.7 focusDistance=1.3 samples=256)
+        settings=(fStop=0.35 focusDistance=1.3 samples=256)
         settings+=("focusPoint1=160,30" "focusPoint2=40,60" "focusPoint3=280,60")
         settings+=("focusPoint4=160,150")
-        [ "$1" != points ] || settings+=(focusBy=surface focusPoints=4)
+        [ "$1" != points ] || settings+=(focusBy=surface focusPoints=4 focusOffset1=1)
         [ "$1" != clip ] ||
             clips+=(--clip "Focus=$(footage still-life 320x180)/pinhole.exr:depth") ;;
     channels)
@@ -75,8 +87,12 @@ shot() {
         settings+=(fStop=0.4 focusDistance=20) ;;
     edges)
         layers_of "$(footage still-life 320x180)"
-        window=180,20,320,100
+        window=192,26,320,98
         settings+=(focusDistance=6) ;;
+    soft)
+        pinhole_of "$(footage fence 320x180)"
+        window=90,40,154,76
+        settings=(fStop=0.35 focusDistance=6 samples=256) ;;
     noise)
         layers_of "$(footage still-life 320x180)"
         window=230,20,310,65
@@ -86,15 +102,15 @@ shot() {
         settings+=(sampling=adaptive) ;;
     lights)
         layers_of "$(footage night-lights 640x360)"
-        window=400,160,560,250
+        window=425,160,553,232
         settings=(fStop=0.7 focusDistance=2 samples=512) ;;
     frame)
         layers_of "$(footage night-lights 320x180)"
         settings=(fStop=0.35 focusDistance=2 samples=512) ;;
     glass | sharp)
         layers_of "$(footage night-lights 640x360)"
-        window=400,160,560,250
-        settings=(fStop=2 focusDistance=1 samples=4096 method=rays)
+        window=425,160,553,232
+        settings=(fStop=2 focusDistance=1 samples=2048 method=rays)
         [ "$1" != sharp ] || settings+=(focusDistance=8) ;;
     *)
         echo "no shot is called $1" >&2
@@ -107,8 +123,8 @@ add_parameter() {
     local key=${1//\#/1} values=$2 with=$4 value shown setting out sets
     local -a list_of
     read -ra list_of <<< "$values"
-    # A parameter begins in a row of its own or in the middle of one.
-    if [ $((${#cells[@]} % columns + ${#list_of[@]})) -gt $columns ] || [ ${#list_of[@]} -gt 3 ]; then
+    # The pictures of a parameter stand in one row, if they fit there.
+    if [ $((${#cells[@]} % columns + ${#list_of[@]})) -gt $columns ]; then
         while [ $((${#cells[@]} % columns)) -ne 0 ]; do cells+=("="); done
     fi
     shot "$3"
@@ -122,12 +138,11 @@ add_parameter() {
             --bits float --no-progress -o "$out" 2> "$work/said" || { cat "$work/said" >&2; exit 1; }
         cells+=("$key|$shown=$out${value#"$shown"}")
     done
-    while [ $((${#cells[@]} % 3)) -ne 0 ]; do cells+=("="); done
 }
 
 make_sheet() {
     [ ${#cells[@]} -eq 0 ] ||
-        "$wideopen" sheet "${cells[@]}" --columns $columns --width 160 \
+        "$wideopen" sheet "${cells[@]}" --columns $columns --width 128 \
             -o "$pictures/parameters-$group.png"
     cells=()
 }
