@@ -38,7 +38,7 @@ pinhole_of() {
 
 # A shot: clips, window (y up) and settings to start from.
 shot() {
-    local folder mask unit
+    local folder mask unit soft
     camera=(--no-metadata)
     window=0,0,320,180
     settings=(fStop=0.7 focusDistance=3.3 samples=256)
@@ -89,10 +89,15 @@ shot() {
         layers_of "$(footage still-life 320x180)"
         window=192,26,320,98
         settings+=(focusDistance=6) ;;
-    soft)
-        pinhole_of "$(footage fence 320x180)"
-        window=90,40,154,76
-        settings=(fStop=0.35 focusDistance=6 samples=256) ;;
+    soft) # depth that was antialiased: its own picture, a little out of focus
+        folder=$(footage still-life 320x180)
+        soft=$work/soft.exr
+        [ -e "$soft" ] || "$wideopen" render LensBlur --clip "Source=$folder/pinhole.exr:depth" \
+            --raw Source --no-metadata --no-progress --bits float \
+            --set fStop=0.1 --set maxRadius=0.8 --set samples=256 -o "$soft" 2> /dev/null
+        clips=(--clip "Source=$folder/pinhole.exr" --clip "Depth=$soft:R")
+        window=110,60,174,96
+        settings=(fStop=0.5 focusDistance=3.3 samples=256) ;;
     noise)
         layers_of "$(footage still-life 320x180)"
         window=230,20,310,65
@@ -104,8 +109,15 @@ shot() {
         layers_of "$(footage night-lights 640x360)"
         window=425,160,553,232
         settings=(fStop=0.7 focusDistance=2 samples=512) ;;
-    frame)
+    left | right | bottom | top | corner)
         layers_of "$(footage night-lights 320x180)"
+        case $1 in
+        left) window=0,54,128,126 ;;
+        right) window=192,54,320,126 ;;
+        bottom) window=32,0,160,72 ;;
+        top) window=192,108,320,180 ;;
+        corner) window=0,72,128,144 ;;
+        esac
         settings=(fStop=0.35 focusDistance=2 samples=512) ;;
     glass | sharp)
         layers_of "$(footage night-lights 640x360)"
