@@ -104,7 +104,7 @@ shot() {
         settings+=(focusDistance=8 samples=64 method=rays) ;;
     views)
         layers_of "$(footage still-life 320x180)"
-        settings+=(sampling=adaptive) ;;
+        settings+=(sampling=adaptive blades=5) ;;
     lights)
         layers_of "$(footage night-lights 640x360)"
         window=425,160,553,232

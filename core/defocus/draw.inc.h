@@ -606,18 +606,21 @@ static void add(const wo_view *view, const uint8_t *lost, float count, const flo
         for (int x = 0; x < view->width; x += WO_LANES) {
             const int from = y * WO_VIEW_ROW + WO_LANES + x;
             float *const to = sums->plane[0] + y * WO_VIEW_WIDTH + x;
-            const vf alpha = v_load(view->plane[WO_VIEW_ALPHA] + from);
+            vf alpha = v_load(view->plane[WO_VIEW_ALPHA] + from);
+            alpha = v_select(v_less(one, alpha), one, alpha);
             vf guessed = v_load(view->plane[WO_VIEW_GUESSED] + from);
             vf seen = one;
             if (m_any(v_less(alpha, one))) {
                 float part[WO_LANES];
                 float guess[WO_LANES];
-                v_store(part, v_sub(one, alpha));
+                v_store(part, alpha);
                 v_store(guess, guessed);
                 for (int n = 0; n < WO_LANES; n++) {
-                    const float left = part[n];
+                    /* Where light ends, coverage and weight are the same number. */
+                    const float left = 1 - part[n];
                     const bool is_lost = !lost || lost[y * WO_VIEW_WIDTH + x + n];
-                    part[n] = left <= WO_LIGHT_MIN || is_lost ? 1 - left : 1;
+                    if (left > WO_LIGHT_MIN && !is_lost)
+                        part[n] = 1;
                     if (left > WO_LIGHT_MIN && is_lost)
                         guess[n] += left;
                 }

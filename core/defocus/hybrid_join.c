@@ -323,7 +323,11 @@ void wo_hybrid_join(const wo_hybrid *h, int32_t tx, int32_t ty, wo_tile_pixels *
                 pixels->guessed[y][x0 + x] =
                     h->plane[WO_HYBRID_GUESSED][(low + y) * h->width + left + x];
                 facts->error[y][x0 + x] = (float)WO_HALVES_TO_ERROR * sqrtf(noise);
+                const ptrdiff_t at = (low + y) * h->width + left + x;
                 facts->rays[y][x0 + x] = h->rays[tile];
+                facts->mask[y][x0 + x] *=
+                    1 - part * ((cell->near > 0 ? mean_coverage(h, WO_HYBRID_NEAR, at) : 0) +
+                                (cell->far > 0 ? mean_coverage(h, WO_HYBRID_FAR, at) : 0));
             }
         }
     }

@@ -179,7 +179,9 @@ bool wo_hybrid_trace(wo_hybrid *h, int32_t tx, int32_t ty, wo_report *part)
             float noise[NOISES];
             look_at(&work, &sums, row, run_index, i, &all, noise);
             put(h, origin + row * h->width + x, &all,
-                (halves[0].guessed[i] + halves[1].guessed[i]) / (float)sums.scale, noise);
+                fminf(fmaxf((halves[0].guessed[i] + halves[1].guessed[i]) / (float)sums.scale, 0),
+                      1),
+                noise);
         }
     }
     return true;

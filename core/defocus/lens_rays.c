@@ -284,7 +284,7 @@ bool wo_lens_rays_tile(const wo_lens_rays *rays, const wo_context *context, int3
             for (int i = 0; i < WO_LANES; i++) {
                 const int x = run_index + WO_PHASES * i;
                 wo_tile_work_pixel(&work, sums, row, run_index, i, pixels->c[row][x]);
-                pixels->guessed[row][x] = sums->guessed[i] / (float)count;
+                pixels->guessed[row][x] = fminf(fmaxf(sums->guessed[i] / (float)count, 0), 1);
             }
         }
     }

@@ -29,6 +29,7 @@ enum { BEYOND = 2 };
 
 typedef struct filter_job {
     const wo_defocus *scene;
+    const wo_lens *lens; /* whose rays are the taps */
     wo_filter_scene filter;
     const wo_filter_kernels *kernels;
     const wo_frame *frame;
@@ -140,7 +141,7 @@ static void ray_taps(tile_job *t, int which, const wo_pencil *pencil)
     wo_filter_disc(&t->job->filter.discs, s->most, 0, &reach, &share);
     const bool alike = s->least > ALIKE * s->most;
     const float sign = which == 0 ? 1.0f : -1.0f;
-    const float rays = (float)t->job->scene->lens->count * shape->lit;
+    const float rays = (float)t->job->lens->count * shape->lit;
     const float area = 3.14159265f * (1 - shape->hole * shape->hole) / rays;
     taps->count = 0;
     for (int n = 0; n < pencil->count; n++) {
@@ -238,7 +239,7 @@ static bool gather_vector(tile_job *t, int32_t row, int run_index, unsigned set,
                           wo_report *part)
 {
     const filter_job *job = t->job;
-    const wo_lens *lens = job->scene->lens;
+    const wo_lens *lens = job->lens;
     const wo_rect area = job->filter.area;
     const int32_t x = t->rect.x1 - area.x1;
     const int32_t y = t->rect.y1 + row - area.y1;
@@ -327,7 +328,7 @@ static bool gather_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_
             if (unwanted(&job->raw.window, &t.rect, row, run_index))
                 continue;
             const uint32_t set = wo_hash(where) + 0x3c6ef372u * (uint32_t)run_index;
-            if (!gather_vector(&t, row, run_index, wo_hash(set) % scene->lens->sets, &inner, pixels,
+            if (!gather_vector(&t, row, run_index, wo_hash(set) % job->lens->sets, &inner, pixels,
                                facts, part))
                 return false;
         }
@@ -457,15 +458,30 @@ static wo_status make_raw(filter_job *job, wo_error *error)
     return WO_OK;
 }
 
+/* No error is estimated, so adaptive sampling has no meaning: as many taps as there are samples, or
+   the next smaller lattice. */
+static const wo_lens *lens_of(const wo_defocus *scene)
+{
+    if (!scene->quality.adaptive || scene->level_count == 0)
+        return scene->lens;
+    const wo_lens *lens = &scene->levels[0];
+    for (int i = 1; i < scene->level_count; i++)
+        if (scene->levels[i].count <= scene->quality.samples)
+            lens = &scene->levels[i];
+    return lens;
+}
+
 static wo_status render(const wo_defocus *scene, const wo_frame *frame, wo_report *report,
                         wo_error *error)
 {
     const wo_context *context = scene->context;
-    filter_job job = {
-        .scene = scene, .frame = frame, .kernels = wo_filter_choose(wo_cpu_detect(context->cpu))};
+    filter_job job = {.scene = scene,
+                      .lens = lens_of(scene),
+                      .frame = frame,
+                      .kernels = wo_filter_choose(wo_cpu_detect(context->cpu))};
     wo_status status = make_raw(&job, error);
     if (status == WO_OK)
-        status = wo_filter_scene_create(context, scene->stack, scene->lens, seen_area(&job),
+        status = wo_filter_scene_create(context, scene->stack, job.lens, seen_area(&job),
                                         &job.filter, error);
     if (status == WO_OK)
         status = wo_frame_tiles(scene, &job.raw, 0, 0.9, gather_tile, &job, report, error);

@@ -38,6 +38,7 @@ typedef struct wo_frame {
     float (*c)[4];       /* premultiplied */
     float *guessed;      /* fraction of the light that came from invented surfaces */
     float *rays;         /* lens rays spent on the pixel; NULL = not wanted */
+    float *mask;         /* how much of the pixel rays alone decide, 0..1; NULL = not wanted */
     float *error;        /* estimated standard error of the displayed value, the mean of the squares
                             of the three colours; NAN = not known; NULL = not wanted */
 } wo_frame;
@@ -77,6 +78,7 @@ const wo_renderer *wo_renderer_of(wo_method method);
 /* What a tile function fills besides its pixels. */
 typedef struct wo_tile_facts {
     float rays[WO_TILE_HEIGHT][WO_TILE_WIDTH];
+    float mask[WO_TILE_HEIGHT][WO_TILE_WIDTH]; /* at first 1, or 0 in tiles without blur */
     float error[WO_TILE_HEIGHT][WO_TILE_WIDTH];
 } wo_tile_facts;
 

@@ -17,6 +17,8 @@ typedef enum wo_lens_blur_output {
     WO_OUTPUT_GUESSED,
     WO_OUTPUT_FOCUS,
     WO_OUTPUT_SPLIT,
+    WO_OUTPUT_MASK,
+    WO_OUTPUT_APERTURE,
     WO_OUTPUT_COUNT
 } wo_lens_blur_output;
 

@@ -27,10 +27,12 @@ static const char *const channels[] = {"red", "green", "blue", "alpha", NULL};
 static const char *const channel_labels[] = {"Red", "Green", "Blue", "Alpha", NULL};
 static const char *const forms[] = {"iris", "star", "heart", NULL};
 static const char *const form_labels[] = {"Iris", "Star", "Heart", NULL};
-static const char *const outputs[] = {"image",   "coc",        "depth", "rays", "error",
-                                      "guessed", "focusPlane", "split", NULL};
-static const char *const output_labels[] = {"Image",   "CoC",         "Depth", "Rays", "Error",
-                                            "Guessed", "Focus plane", "Split", NULL};
+static const char *const outputs[] = {"image",   "coc",      "depth",      "rays",
+                                      "error",   "guessed",  "focusPlane", "split",
+                                      "rayMask", "aperture", NULL};
+static const char *const output_labels[] = {"Image",    "CoC",      "Depth",       "Rays",
+                                            "Error",    "Guessed",  "Focus plane", "Split",
+                                            "Ray mask", "Aperture", NULL};
 static const char *const repairs[] = {"off", "colour", "all", NULL};
 static const char *const repair_labels[] = {"Off", "Colour", "All", NULL};
 
@@ -385,7 +387,9 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
          "(positive in front of the focus, negative behind), the depth in metres, the lens rays "
          "of each pixel, its estimated error, how much of its light was guessed, "
          "what is in front of the focus (blue), in it to half a px (green) and behind it (red), or "
-         "the pixels that edge repair split in two (1) or whose depth alone it mended (0.5).",
+         "the pixels that edge repair split in two (1) or whose depth alone it mended (0.5), what "
+         "is "
+         "left to rays where the method smooths the rest, or the aperture.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(output),
      .initial = {WO_OUTPUT_IMAGE},

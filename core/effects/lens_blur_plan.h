@@ -24,8 +24,10 @@ struct wo_plan {
     wo_thin_pencils *pencils[WO_LEVELS_MAX]; /* the one or the other */
     wo_table_pencils *table[WO_LEVELS_MAX];  /* [0] owns the table */
     wo_lens level[WO_LEVELS_MAX];
-    wo_table_facts facts; /* of the table */
-    double f_number;      /* reached by the lens */
+    wo_table_facts facts;       /* of the table */
+    wo_aperture_shape aperture; /* for showing it */
+    double aperture_scale;      /* 1 over its density where it is densest */
+    double f_number;            /* reached by the lens */
     wo_focus focus;
     wo_lens upright[WO_LEVELS_MAX]; /* before the tilt */
     wo_tilted_pencils tilted[WO_LEVELS_MAX];
