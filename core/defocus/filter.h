@@ -12,7 +12,7 @@
 
    What reaches a pixel is kept in three classes, by its vergence against the pixel's own surface:
    before it, of it, behind it. They are put together at the end, front to back:
-       before + (1 - A(before)) (own + (1 - A(own)) behind / W(behind)).
+       before + (1 - A(before)) (own + (1 - A(own)) behind / max(W(behind), A(behind))).
    Classes are told apart by more than CLASS_PX of blur, and more the farther the tap is away, so
    that a slope remains one surface. */
 

@@ -199,7 +199,8 @@ static void compose(const wo_filter_sums *sums, const wo_filter_sums *neighbours
         const float a_own = own < expected ? own / expected : own > 0 ? 1.0f : 0.0f;
         const float w_before = before > 1 ? 1 / before : 1;
         const float w_own = own > 0 ? left * a_own / own : 0;
-        const float w_behind = behind > 0 ? left * (1 - a_own) / behind : 0;
+        const float all_behind = fmaxf(behind, sums->c[WO_FILTER_BEHIND][3][i]);
+        const float w_behind = all_behind > 0 ? left * (1 - a_own) / all_behind : 0;
         float sum[4];
         for (int k = 0; k < 4; k++)
             sum[k] = w_before * sums->c[WO_FILTER_BEFORE][k][i] +
@@ -214,7 +215,8 @@ static void compose(const wo_filter_sums *sums, const wo_filter_sums *neighbours
         const float all = sum[3] < 1 ? sum[3] : 1;
         const float lost = sums->own_open[i] ? 1 : sums->open[i] * sums->own_share[i];
         const float open = lost < 1 - all ? lost : 1 - all;
-        const float norm = all + open;
+        /* What is more than all light takes the colours along with it. */
+        const float norm = sum[3] < 1 ? sum[3] + open : sum[3];
         const float scale = norm > LEAST_LIGHT ? 1 / norm : 0;
         for (int k = 0; k < 3; k++)
             out->c[k][i] = sum[k] * scale;
