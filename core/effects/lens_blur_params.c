@@ -30,10 +30,9 @@ static const char *const form_labels[] = {"Iris", "Star", "Heart", NULL};
 static const char *const outputs[] = {"image",   "coc",      "depth",      "rays",
                                       "error",   "guessed",  "focusPlane", "split",
                                       "rayMask", "aperture", NULL};
-static const char *const output_labels[] = {
-    "Image",   "Circle of confusion", "Depth", "Rays",     "Error",
-    "Guessed", "Focus plane",         "Split", "Ray mask", "Aperture",
-    NULL};
+static const char *const output_labels[] = {"Image",    "CoC",      "Depth",       "Rays",
+                                            "Error",    "Guessed",  "Focus plane", "Split",
+                                            "Ray mask", "Aperture", NULL};
 static const char *const repairs[] = {"off", "colour", "all", NULL};
 static const char *const repair_labels[] = {"Off", "Colour", "All", NULL};
 
