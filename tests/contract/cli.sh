@@ -316,7 +316,7 @@ says 'fStop'
 blur 2 -o x.exr --set fStop=nan
 blur 2 -o x.exr --set fStop
 blur 2 -o x.exr --set output=nonsense
-says 'Circle of confusion'
+says 'Ray mask'
 blur 2 -o x.exr --clip Backdrop=a.exr
 says Layer2
 blur 2 -o x.exr --clip "Source=$scene"
