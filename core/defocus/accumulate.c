@@ -321,12 +321,11 @@ bool wo_accumulate_add(const wo_accumulate *all, wo_accumulator *worker, const w
             for (int n = first; n < end; n++) {
                 if (worker->same[n].link == -2)
                     continue;
-                add_view(all, worker, level, n, scale);
-                if (++chunk % CHUNK != 0)
-                    continue;
                 if (wo_aborted(all->scene->context))
                     return false;
-                add_part(worker, half, level);
+                add_view(all, worker, level, n, scale);
+                if (++chunk % CHUNK == 0)
+                    add_part(worker, half, level);
             }
             add_part(worker, half, level);
         }
