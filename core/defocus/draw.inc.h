@@ -432,10 +432,8 @@ static void draw_thin(drawing *g, const wo_thin_hit *hit)
         /* Where interpolation leaves 0..1, colours are cut as coverage is. */
         if (c[3] < 0)
             return;
-        const float cut = c[3] > 1 ? 1 / c[3] : 1;
-        for (int k = 0; k < 3; k++)
-            c[k] *= cut;
-        c[3] = least(c[3], 1);
+        for (int k = 0; k < 4; k++)
+            c[k] /= most(c[3], 1);
     }
     for (int k = 0; k < 4; k++)
         sum->c[k] += sum->light * c[k];
