@@ -316,7 +316,9 @@ says 'fStop'
 blur 2 -o x.exr --set fStop=nan
 blur 2 -o x.exr --set fStop
 blur 2 -o x.exr --set output=nonsense
-says 'Ray mask'
+says 'Focus plane'
+blur 0 -o keys.exr --set output=coc --set depthMode=distance --set depthChannel=red \
+    --set edgeRepair=colour
 blur 2 -o x.exr --clip Backdrop=a.exr
 says Layer2
 blur 2 -o x.exr --clip "Source=$scene"
