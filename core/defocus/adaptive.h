@@ -13,7 +13,7 @@
    half their difference times WO_HALVES_TO_ERROR is the standard error of the whole. Sampling ends
    when WO_ERROR_SIGMAS standard errors are below the target: what is left, nobody sees. */
 #define WO_LATTICE_POWER   1.6
-#define WO_HALVES_TO_ERROR 0.66
+#define WO_HALVES_TO_ERROR 0.60
 #define WO_ERROR_SIGMAS    3.0
 
 /* Sums of all vectors of a tile, the halves of the rays by themselves. */

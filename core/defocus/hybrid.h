@@ -71,6 +71,8 @@ typedef struct wo_hybrid {
     uint8_t *wanted; /* [tiles] */
     wo_hybrid_cell *cells;
     int32_t columns, rows; /* of cells */
+    wo_rect inner; /* cells of the format's tiles: they look at no others, so that a render of
+                      the format traces nothing beyond it */
     wo_hybrid_kernel kernels[WO_HYBRID_KERNELS];
 } wo_hybrid;
 
@@ -78,6 +80,9 @@ typedef struct wo_hybrid {
    many rays a pixel. */
 int wo_hybrid_kernel_for(const wo_hybrid *hybrid, bool near, double rays, double coverage,
                          double by_vergence);
+
+/* Cells that the cell (column, row) may look at, from the area's corner. */
+wo_rect wo_hybrid_view(const wo_hybrid *hybrid, int32_t column, int32_t row);
 
 /* Fills the planes of one tile. false when stopped. */
 bool wo_hybrid_trace(wo_hybrid *hybrid, int32_t tx, int32_t ty, wo_report *part);

@@ -71,6 +71,26 @@ int wo_hybrid_kernel_for(const wo_hybrid *h, bool near, double rays, double cove
     return (int)(q < 0 ? 0 : q > WO_HYBRID_KERNELS - 1 ? WO_HYBRID_KERNELS - 1 : q + 0.5);
 }
 
+wo_rect wo_hybrid_view(const wo_hybrid *h, int32_t column, int32_t row)
+{
+    const wo_rect cell = {column, row, column + 1, row + 1};
+    const wo_rect all = {0, 0, h->columns, h->rows};
+    return wo_rect_contains(h->inner, cell) ? h->inner : all;
+}
+
+/* The same in pixels, for the cell with this corner. */
+static wo_rect pixels_seen(const wo_hybrid *h, int32_t left, int32_t low)
+{
+    const wo_rect r = wo_hybrid_view(h, left / WO_HYBRID_CELL, low / WO_HYBRID_CELL);
+    return (wo_rect){r.x1 * WO_HYBRID_CELL, r.y1 * WO_HYBRID_CELL, r.x2 * WO_HYBRID_CELL,
+                     r.y2 * WO_HYBRID_CELL};
+}
+
+static int32_t clamp_to(int32_t x, int32_t from, int32_t to)
+{
+    return x < from ? from : x >= to ? to - 1 : x;
+}
+
 void wo_hybrid_choose(wo_hybrid *h, int32_t row)
 {
     /* Green stands for all colours. */
@@ -86,9 +106,10 @@ void wo_hybrid_choose(wo_hybrid *h, int32_t row)
         double sum[SUMS] = {0};
         int cells = 0;
         double own = 0;
+        const wo_rect view = wo_hybrid_view(h, column, row);
         for (int32_t b = row - 1; b <= row + 1; b++) {
             for (int32_t a = column - 1; a <= column + 1; a++) {
-                if (a < 0 || b < 0 || a >= h->columns || b >= h->rows)
+                if (a < view.x1 || b < view.y1 || a >= view.x2 || b >= view.y2)
                     continue;
                 const ptrdiff_t at = cell_origin(h, a, b);
                 cells++;
@@ -121,11 +142,10 @@ typedef float block[WO_HYBRID_CELL][WO_HYBRID_CELL];
 static void smooth(const wo_hybrid *h, const wo_hybrid_kernel *k, int32_t left, int32_t low,
                    int from, int count, block *out)
 {
-    const int32_t w = wo_rect_width(h->area);
-    const int32_t height = wo_rect_height(h->area);
-    const bool inside = left >= WO_HYBRID_REACH && low >= WO_HYBRID_REACH &&
-                        left + WO_HYBRID_CELL + WO_HYBRID_REACH <= w &&
-                        low + WO_HYBRID_CELL + WO_HYBRID_REACH <= height;
+    const wo_rect seen = pixels_seen(h, left, low);
+    const wo_rect cell = {left, low, left + WO_HYBRID_CELL, low + WO_HYBRID_CELL};
+    const bool inside =
+        wo_rect_contains(seen, wo_rect_grow(cell, WO_HYBRID_REACH, WO_HYBRID_REACH));
     memset(out, 0, (size_t)count * sizeof *out);
     for (int i = 0; i < k->count; i++) {
         const float weight = k->weight[i];
@@ -140,10 +160,9 @@ static void smooth(const wo_hybrid *h, const wo_hybrid_kernel *k, int32_t left, 
                 }
                 continue;
             }
-            row = row < 0 ? 0 : row >= height ? height - 1 : row;
+            row = clamp_to(row, seen.y1, seen.y2);
             for (int x = 0; x < WO_HYBRID_CELL; x++) {
-                int32_t column = left + x + k->x[i];
-                column = column < 0 ? 0 : column >= w ? w - 1 : column;
+                const int32_t column = clamp_to(left + x + k->x[i], seen.x1, seen.x2);
                 for (int p = 0; p < count; p++)
                     out[p][y][x] += weight * h->plane[from + p][row * h->width + column];
             }
@@ -172,15 +191,12 @@ static float mean_coverage(const wo_hybrid *h, int part, ptrdiff_t at)
 static void look_around(const wo_hybrid *h, const wo_hybrid_kernel *k, int32_t x, int32_t y,
                         float behind[4])
 {
-    const int32_t w = wo_rect_width(h->area);
-    const int32_t height = wo_rect_height(h->area);
+    const wo_rect seen = pixels_seen(h, x, y);
     float open[4] = {0};
     memset(behind, 0, 4 * sizeof *behind);
     for (int i = 0; i < k->count; i++) {
-        int32_t column = x + k->x[i];
-        int32_t row = y + k->y[i];
-        column = column < 0 ? 0 : column >= w ? w - 1 : column;
-        row = row < 0 ? 0 : row >= height ? height - 1 : row;
+        const int32_t column = clamp_to(x + k->x[i], seen.x1, seen.x2);
+        const int32_t row = clamp_to(y + k->y[i], seen.y1, seen.y2);
         const ptrdiff_t at = row * h->width + column;
         for (int c = 0; c < 3; c++) {
             behind[c] += h->plane[WO_HYBRID_REST + c][at] + h->plane[WO_HYBRID_FAR + c][at];

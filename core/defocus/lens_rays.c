@@ -230,9 +230,10 @@ bool wo_tile_work_vector(wo_tile_work *work, const wo_lens *lens, unsigned pass,
     wo_march_function *kernel = work->tile->class == WO_TILE_SINGLE ? kernels->single
                                 : isfinite(work->view.v_apart)      ? kernels->march_apart
                                                                     : kernels->march;
-    /* Neighbours down the picture use consecutive pencils, whose shifts are spread evenly. */
-    const uint32_t set = wo_hash((uint32_t)work->tx + 0x2545f491u * pass) +
-                         WO_PHASES * (uint32_t)(work->rect.y1 + row) + (uint32_t)run_index;
+    /* At random: pencils in order would draw their pattern on the picture. */
+    const uint32_t where = (uint32_t)work->tx * 0x9e3779b1u +
+                           (uint32_t)(work->rect.y1 + row) * 0x85ebca77u + 0x2545f491u * pass;
+    const uint32_t set = wo_hash(wo_hash(where) + 0x3c6ef372u * (uint32_t)run_index);
     halves[0] = halves[1] = (wo_march_sums){0};
     if (sharp) {
         const wo_pencil straight = {.count = 1, .ax = zero, .ay = zero, .bx = zero, .by = zero};

@@ -5,11 +5,23 @@
 #include <math.h>
 #include <stdatomic.h>
 
-/* Tiles of the frame and of its margin, as far as the picture goes. */
+/* Tiles of the frame and of its margin, as far as the picture goes, or the format if the frame lies
+   inside it. */
 static wo_rect tiles_of(const wo_defocus *scene, const wo_frame *frame)
 {
-    const wo_rect r = wo_rect_grow(frame->window, WO_HYBRID_MARGIN, WO_HYBRID_MARGIN);
-    return wo_tiles_of(wo_rect_intersect(r, scene->extent));
+    const wo_rect r = wo_rect_intersect(
+        wo_rect_grow(frame->window, WO_HYBRID_MARGIN, WO_HYBRID_MARGIN), scene->extent);
+    const wo_rect format = wo_tiles_of(scene->format);
+    const wo_rect all = wo_tiles_of(r);
+    return wo_rect_contains(format, frame->tiles) ? wo_rect_intersect(all, format) : all;
+}
+
+static wo_rect inner_of(const wo_hybrid *h)
+{
+    const wo_rect t = wo_rect_intersect(wo_tiles_of(h->scene->format), h->tiles);
+    enum { ACROSS = WO_TILE_WIDTH / WO_HYBRID_CELL, DOWN = WO_TILE_HEIGHT / WO_HYBRID_CELL };
+    return (wo_rect){(t.x1 - h->tiles.x1) * ACROSS, (t.y1 - h->tiles.y1) * DOWN,
+                     (t.x2 - h->tiles.x1) * ACROSS, (t.y2 - h->tiles.y1) * DOWN};
 }
 
 /* Coverage is the same for all colours if the lens does not part them. */
@@ -29,6 +41,7 @@ static wo_status create(const wo_defocus *scene, const wo_frame *frame, wo_hybri
     h->width = wo_rect_width(h->area);
     h->columns = wo_rect_width(h->area) / WO_HYBRID_CELL;
     h->rows = wo_rect_height(h->area) / WO_HYBRID_CELL;
+    h->inner = inner_of(h);
     const size_t pixels = (size_t)h->width * (size_t)wo_rect_height(h->area);
     const size_t tiles = (size_t)wo_rect_width(h->tiles) * (size_t)wo_rect_height(h->tiles);
     size_t planes = 0;

@@ -27,6 +27,7 @@ typedef struct wo_defocus {
     const wo_highlights *highlights;
     const wo_lens_rays *rays; /* the class of every tile; renders one with all rays */
     wo_rect extent;           /* where the picture has pixels */
+    wo_rect format;           /* the frame the camera saw */
     wo_quality quality;
 } wo_defocus;
 

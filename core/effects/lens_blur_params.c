@@ -24,19 +24,17 @@ const wo_param_group wo_lens_blur_groups[WO_LENS_BLUR_GROUPS] = {
 static const char *const depth_modes[] = {WO_DEPTH_MODE_LIST(DEPTH_KEY) NULL};
 static const char *const depth_mode_labels[] = {WO_DEPTH_MODE_LIST(DEPTH_LABEL) NULL};
 static const char *const channels[] = {"red", "green", "blue", "alpha", NULL};
-static const char *const channel_labels[] = {"Red or single channel", "Green", "Blue", "Alpha",
-                                             NULL};
+static const char *const channel_labels[] = {"Red", "Green", "Blue", "Alpha", NULL};
 static const char *const forms[] = {"iris", "star", "heart", NULL};
 static const char *const form_labels[] = {"Iris", "Star", "Heart", NULL};
 static const char *const outputs[] = {"image",   "coc",      "depth",      "rays",
                                       "error",   "guessed",  "focusPlane", "split",
                                       "rayMask", "aperture", NULL};
-static const char *const output_labels[] = {
-    "Image",       "Circle of confusion", "Depth",    "Rays",     "Error", "Guessed",
-    "Focus plane", "Split edges",         "Ray mask", "Aperture", NULL};
+static const char *const output_labels[] = {"Image",    "CoC",      "Depth",       "Rays",
+                                            "Error",    "Guessed",  "Focus plane", "Split",
+                                            "Ray mask", "Aperture", NULL};
 static const char *const repairs[] = {"off", "colour", "all", NULL};
-static const char *const repair_labels[] = {"Off", "Antialiased colour",
-                                            "Antialiased colour and depth", NULL};
+static const char *const repair_labels[] = {"Off", "Colour", "All", NULL};
 
 static const char *const methods[] = {"hybrid",     "rays",      "filter", "spread",
                                       "accumulate", "reference", NULL};
@@ -165,8 +163,10 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .label = "Depth is",
      .unit = "",
      .group = "depth",
-     .help = "What the numbers of the Depth clips mean. Zero, negative and non-finite distances "
-             "are infinitely far.",
+     .help =
+         "What the numbers of the Depth clips mean. Distance: along the axis. Inverse: one over "
+         "it. Ray: distance from the camera. Normalised: 0 is Near, 1 is Far. Zero, negative "
+         "and non-finite distances are infinitely far.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(depth_mode),
      .initial = {WO_DEPTH_DISTANCE},
@@ -221,7 +221,7 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .unit = "",
      .group = "depth",
      .help = "Channel of the Depth clips that holds the depth. Clips with fewer channels give "
-             "their last one.",
+             "their last one: Red suits those of one.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(depth_channel),
      .initial = {0},
@@ -248,10 +248,11 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .label = "Edge repair",
      .unit = "",
      .group = "depth",
-     .help = "Pixels at edges that mix two surfaces are split into a front and a back part before "
-             "they are blurred. Antialiased colour: by the colours around them. Antialiased colour "
-             "and depth: pixels whose depth is a mixture, too, get back the depth of a surface; "
-             "depth that was not antialiased stays what it is. Off: every pixel is one surface.",
+     .help =
+         "Pixels at edges that mix two surfaces are split into a front and a back part before "
+         "they are blurred. Colour: antialiased colour, by the colours around. All: antialiased "
+         "depth, too; pixels whose depth is a mixture get back the depth of a surface, and "
+         "depth that was not antialiased stays what it is. Off: every pixel is one surface.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(edge_repair),
      .initial = {WO_EDGES_OF_COLOUR_AND_DEPTH},

@@ -191,6 +191,7 @@ static wo_status render_frame(render_job *job, wo_report *report, wo_error *erro
                               .highlights = &plan->highlights,
                               .rays = &plan->rays,
                               .extent = plan->geometry.extent,
+                              .format = plan->geometry.format,
                               .quality = plan->quality};
     WO_TRY(renderer->render(&scene, &job->frame, &part, error));
     part.seconds[WO_STAGE_RENDER] = wo_seconds() - start;

@@ -316,7 +316,7 @@ says 'fStop'
 blur 2 -o x.exr --set fStop=nan
 blur 2 -o x.exr --set fStop
 blur 2 -o x.exr --set output=nonsense
-says 'Circle of confusion'
+says 'Ray mask'
 blur 2 -o x.exr --clip Backdrop=a.exr
 says Layer2
 blur 2 -o x.exr --clip "Source=$scene"
@@ -373,6 +373,8 @@ checks=$((checks + 1))
 
 expect 0 sheet "sharp=$scene" 'blurred|8 rays=out.exr' -o sheet.png --title 'Two planes' --columns 2
 present sheet.png
+expect 0 sheet "scaled=$scene*0.5" 'empty=' 'last=out.exr' -o scaled.png --columns 3
+present scaled.png
 expect 2 sheet out.exr -o x.png
 expect 2 sheet a=out.exr
 expect 1 sheet a=missing.exr -o x.png
