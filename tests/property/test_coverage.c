@@ -60,8 +60,8 @@ static void opaque_stays_opaque(void **state)
     wo_error error = {WO_OK, ""};
     for (size_t i = 0; wo_footage_scene_at(i); i++) {
         const wo_footage_options options = {.scene = wo_footage_scene_at(i)->name,
-                                            .width = 80,
-                                            .height = 45,
+                                            .width = 66,
+                                            .height = 37,
                                             .samples = 8,
                                             .layers = 4};
         wo_footage *set = NULL;
