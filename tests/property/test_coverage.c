@@ -13,6 +13,10 @@
    one colour keeps it. Loops over all methods, so that a new one is tested without a new line. */
 static const wo_context plain = WO_CONTEXT_INIT;
 
+/* More than one tile in x and in y. */
+enum { WIDE = 72, HIGH = 24 };
+static const wo_rect frame = {0, 0, WIDE, HIGH};
+
 static bool all_opaque(const wo_image *picture)
 {
     for (int32_t y = picture->bounds.y1; y < picture->bounds.y2; y++)
@@ -56,8 +60,8 @@ static void opaque_stays_opaque(void **state)
     wo_error error = {WO_OK, ""};
     for (size_t i = 0; wo_footage_scene_at(i); i++) {
         const wo_footage_options options = {.scene = wo_footage_scene_at(i)->name,
-                                            .width = 96,
-                                            .height = 54,
+                                            .width = 66,
+                                            .height = 37,
                                             .samples = 8,
                                             .layers = 4};
         wo_footage *set = NULL;
@@ -78,7 +82,6 @@ static void opaque_stays_opaque(void **state)
 static void opaque_whatever_the_depth(void **state)
 {
     (void)state;
-    const wo_rect frame = {0, 0, 80, 48};
     for (int method = 0; method < WO_METHOD_COUNT; method++) {
         for (uint64_t seed = 0; seed < 6; seed++) {
             scene s;
@@ -92,7 +95,7 @@ static void opaque_whatever_the_depth(void **state)
                 scene_fill_busy(&s, seed);
             rng r = {seed};
             const bool noise = seed >= 4;
-            for (int32_t n = 0; noise && n < 80 * 48; n++)
+            for (int32_t n = 0; noise && n < WIDE * HIGH; n++)
                 s.clip[WO_CLIP_DEPTH].data[n] = (float)exp(rng_range(&r, -1, 3));
             wo_image out = scene_render(&s, NULL);
             assert_true(all_opaque(&out));
@@ -106,7 +109,6 @@ static void opaque_whatever_the_depth(void **state)
 static void constant_stays_constant(void **state)
 {
     (void)state;
-    const wo_rect frame = {0, 0, 80, 48};
     const float colours[][4] = {
         {0.6f, 0.25f, 1.5f, 1}, {3e-4f, 7, -0.5f, 1}, {0.2f, 0.1f, 0.05f, 1}};
     for (int method = 0; method < WO_METHOD_COUNT; method++) {
@@ -120,10 +122,10 @@ static void constant_stays_constant(void **state)
             const float *colour = colours[seed % WO_COUNT(colours)];
             picture_fill(&s.clip[WO_CLIP_SOURCE], colour);
             rng r = {seed};
-            for (int32_t n = 0; seed >= 3 && n < 80 * 48; n++)
+            for (int32_t n = 0; seed >= 3 && n < WIDE * HIGH; n++)
                 s.clip[WO_CLIP_DEPTH].data[n] = (float)exp(rng_range(&r, -1, 3));
             wo_image out = scene_render(&s, NULL);
-            for (int32_t i = 0; i < 4 * 80 * 48; i++)
+            for (int32_t i = 0; i < 4 * WIDE * HIGH; i++)
                 assert_close((double)out.data[i], (double)colour[i % 4], 1e-6);
             picture_free(&out);
             scene_free(&s);
@@ -135,7 +137,6 @@ static void constant_stays_constant(void **state)
 static void even_coverage_stays(void **state)
 {
     (void)state;
-    const wo_rect frame = {0, 0, 80, 48};
     const float colour[4] = {0.25f, 0.125f, 0.5f, 0.5f};
     for (int method = 0; method < WO_METHOD_COUNT; method++) {
         scene s;
@@ -146,7 +147,7 @@ static void even_coverage_stays(void **state)
         picture_fill(scene_clip(&s, WO_CLIP_SOURCE, 4), colour);
         picture_fill(scene_clip(&s, WO_CLIP_DEPTH, 1), (const float[1]){1.25f});
         wo_image out = scene_render(&s, NULL);
-        for (int32_t i = 0; i < 4 * 80 * 48; i++)
+        for (int32_t i = 0; i < 4 * WIDE * HIGH; i++)
             assert_near((double)out.data[i], (double)colour[i % 4], 1e-6);
         picture_free(&out);
         scene_free(&s);
@@ -157,7 +158,6 @@ static void even_coverage_stays(void **state)
 static void every_kind_of_alpha(void **state)
 {
     (void)state;
-    const wo_rect frame = {0, 0, 80, 48};
     for (int method = 0; method < WO_METHOD_COUNT; method++) {
         scene s;
         scene_init(&s, frame);
@@ -167,13 +167,13 @@ static void every_kind_of_alpha(void **state)
         wo_image *const source = &s.clip[WO_CLIP_SOURCE];
         s.alpha[WO_CLIP_SOURCE] = WO_ALPHA_PREMULTIPLIED;
         wo_image premultiplied = scene_render(&s, NULL);
-        for (int32_t n = 0; n < 80 * 48; n++)
+        for (int32_t n = 0; n < WIDE * HIGH; n++)
             for (int k = 0; k < 3; k++)
                 source->data[4 * n + k] /=
                     source->data[4 * n + 3] > 0 ? source->data[4 * n + 3] : 1;
         s.alpha[WO_CLIP_SOURCE] = WO_ALPHA_UNPREMULTIPLIED;
         wo_image straight = scene_render(&s, NULL);
-        for (int32_t i = 0; i < 4 * 80 * 48; i++)
+        for (int32_t i = 0; i < 4 * WIDE * HIGH; i++)
             assert_near((double)straight.data[i], (double)premultiplied.data[i],
                         2e-5 * fmax(1, fabs((double)premultiplied.data[i])));
         picture_free(&premultiplied);
@@ -186,7 +186,7 @@ static void every_kind_of_alpha(void **state)
         s.alpha[WO_CLIP_SOURCE] = WO_ALPHA_PREMULTIPLIED;
         wo_image one = scene_render(&s, NULL);
         wo_image rgb = picture_make(frame, 3);
-        for (int32_t n = 0; n < 80 * 48; n++) {
+        for (int32_t n = 0; n < WIDE * HIGH; n++) {
             memcpy(rgb.data + 3 * n, source->data + 4 * n, 3 * sizeof *rgb.data);
             source->data[4 * n + 3] = 0.25f;
         }

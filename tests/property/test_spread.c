@@ -313,7 +313,7 @@ static void small_radii_grow_smoothly(void **state)
 
 static scene any_scene(int kind)
 {
-    scene s = spread_scene((wo_rect){-21, 9, 150, 100}, kind % 2 ? 14 : 45);
+    scene s = spread_scene((wo_rect){-21, 9, 110, 65}, kind % 2 ? 14 : 45);
     s.params.blades = kind % 2 ? 6 : 0;
     s.params.max_radius = kind % 2 ? 7 : 100;
     s.params.lens = kind == 3 ? WO_LENS_THICK : WO_LENS_THIN;
@@ -338,7 +338,7 @@ static void tiles_and_threads_change_nothing(void **state)
         scene s = any_scene(kind);
         const wo_rect extent = s.geometry.extent;
         wo_image whole = scene_render(&s, NULL);
-        for (int n = 0; n < 7; n++) {
+        for (int n = 0; n < 5; n++) {
             const unsigned threads = 1 + (unsigned)n % 3;
             wo_context context = WO_CONTEXT_INIT;
             context.runner = threads_runner(&threads);
