@@ -263,9 +263,9 @@ static bool nothing_between(const wo_stack *stack, int32_t x, int32_t y, const w
 {
     const wo_rect r = {x < h->x ? x : h->x, y < h->y ? y : h->y, (x > h->x ? x : h->x) + 1,
                        (y > h->y ? y : h->y) + 1};
-    bool gaps = false;
+    unsigned flags = 0;
     for (int s = 0; s < stack->sheets; s++)
-        if (wo_stack_bounds(stack, s, r, &gaps).v_max > hides_from(h, s, px_per_dioptre))
+        if (wo_stack_bounds(stack, s, r, &flags).v_max > hides_from(h, s, px_per_dioptre))
             return false;
     return true;
 }

@@ -54,7 +54,7 @@ typedef struct tile_job {
 
 static int32_t reach_of(const wo_ray_tile *tile)
 {
-    return (int32_t)ceilf(tile->reach) + BEYOND;
+    return (int32_t)ceilf(tile->footprint) + BEYOND;
 }
 
 static void widen(side *s, float least, float most)
@@ -285,8 +285,8 @@ static bool gather_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_
     const wo_defocus *scene = job->scene;
     const wo_ray_tile *tile = wo_lens_rays_at(scene->rays, tx, ty);
     memset(facts, 0, sizeof *facts);
-    if (tile->class == WO_TILE_EMPTY || tile->class == WO_TILE_SHARP) {
-        for (int i = 0; tile->class == WO_TILE_SHARP && i < WO_TILE_WIDTH * WO_TILE_HEIGHT; i++)
+    if (tile->class == WO_TILE_EMPTY || wo_ray_tile_straight(tile)) {
+        for (int i = 0; wo_ray_tile_straight(tile) && i < WO_TILE_WIDTH * WO_TILE_HEIGHT; i++)
             facts->rays[i / WO_TILE_WIDTH][i % WO_TILE_WIDTH] = 1;
         return wo_lens_rays_tile(scene->rays, scene->context, tx, ty, pixels, part);
     }
@@ -409,7 +409,7 @@ static wo_rect seen_area(const filter_job *job)
             const int32_t reach = reach_of(tile);
             const wo_rect rect = {tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT, (tx + 1) * WO_TILE_WIDTH,
                                   (ty + 1) * WO_TILE_HEIGHT};
-            if (tile->class != WO_TILE_EMPTY && tile->class != WO_TILE_SHARP)
+            if (tile->class != WO_TILE_EMPTY && !wo_ray_tile_straight(tile))
                 area = wo_rect_union(area, wo_rect_grow(rect, reach, reach));
         }
     }

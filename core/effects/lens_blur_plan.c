@@ -241,7 +241,7 @@ wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params
                                  wo_rect_grow(plan->window, plan->setup.margin, plan->setup.margin),
                                  plan->setup.reach * plan->setup.tilt *
                                      fmax(1, plan->geometry.pixel_stretch),
-                                 &plan->rays, error);
+                                 WO_LEAVE_OUT_ALL, &plan->rays, error);
     plan->report.seconds[WO_STAGE_PLAN] = wo_seconds() - start;
 done:
     if (status != WO_OK)
