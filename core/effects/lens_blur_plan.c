@@ -46,31 +46,34 @@ static wo_status empty_sheet(const wo_context *context, wo_rect area, wo_sheet *
     return WO_OK;
 }
 
+wo_sheet_source wo_lens_blur_layer(const wo_plan *plan, const wo_plan_args *args, int i)
+{
+    const wo_lens_blur_setup *setup = &plan->setup;
+    return (wo_sheet_source){
+        .colour = &args->inputs[2 * i],
+        .depth = plan->params.use_depth ? &args->inputs[2 * i + 1] : NULL,
+        .depth_channel = plan->params.depth_channel,
+        .alpha = args->alpha[2 * i],
+        .reading = setup->reading,
+        .extent = plan->geometry.extent,
+        .format = plan->geometry.format,
+        .focal_px = setup->lens.focal_px,
+        .stretch = plan->geometry.pixel_stretch,
+        .v_origin = plan->focus.v_axis,
+        .focus = plan->focus.flat || plan->params.output == WO_OUTPUT_DEPTH ? NULL : &plan->focus,
+        .v_min = setup->v_min,
+        .v_max = setup->v_max,
+    };
+}
+
 static wo_status load_layers(const wo_plan *plan, const wo_plan_args *args, wo_rect area,
                              wo_sheet sheets[SHEETS], wo_sheet_counts *counts, wo_error *error)
 {
-    const wo_lens_blur_setup *setup = &plan->setup;
     for (int i = 0; i < WO_LENS_BLUR_LAYERS; i++) {
-        const wo_image *colour = &args->inputs[2 * i];
-        if (!setup->layer_used[i] || !colour->data)
+        if (!plan->setup.layer_used[i] || !args->inputs[2 * i].data)
             continue;
         WO_TRY(wo_sheet_create(&plan->context, area, &sheets[i], error));
-        const wo_sheet_source source = {
-            .colour = colour,
-            .depth = plan->params.use_depth ? &args->inputs[2 * i + 1] : NULL,
-            .depth_channel = plan->params.depth_channel,
-            .alpha = args->alpha[2 * i],
-            .reading = setup->reading,
-            .extent = plan->geometry.extent,
-            .format = plan->geometry.format,
-            .focal_px = setup->lens.focal_px,
-            .stretch = plan->geometry.pixel_stretch,
-            .v_origin = plan->focus.v_axis,
-            .focus =
-                plan->focus.flat || plan->params.output == WO_OUTPUT_DEPTH ? NULL : &plan->focus,
-            .v_min = setup->v_min,
-            .v_max = setup->v_max,
-        };
+        const wo_sheet_source source = wo_lens_blur_layer(plan, args, i);
         WO_TRY(wo_sheet_load(&plan->context, &source, plan->window, &sheets[i], counts, error));
         WO_TRY(go_on(&plan->context, error));
     }
@@ -232,7 +235,10 @@ wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params
     if (status != WO_OK || wo_rect_empty(plan->window))
         goto done;
     status = wo_lens_blur_focus_make(&plan->params, args, &plan->setup, &plan->focus, error);
-    if (status != WO_OK || (status = wo_lens_blur_lens_make(plan, error)) != WO_OK)
+    if (status != WO_OK)
+        goto done;
+    wo_lens_blur_find_copy(plan, args);
+    if (plan->copy || (status = wo_lens_blur_lens_make(plan, error)) != WO_OK)
         goto done;
     if ((status = build_scene(plan, args, error)) != WO_OK)
         goto done;
@@ -242,7 +248,7 @@ wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params
                                  plan->setup.reach * plan->setup.tilt *
                                      fmax(1, plan->geometry.pixel_stretch),
                                  WO_LEAVE_OUT_ALL, &plan->rays, error);
-    plan->report.seconds[WO_STAGE_PLAN] = wo_seconds() - start;
+    plan->report.seconds[WO_STAGE_PLAN] += wo_seconds() - start;
 done:
     if (status != WO_OK)
         wo_lens_blur_plan_destroy(&plan);

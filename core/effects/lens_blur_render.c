@@ -113,6 +113,8 @@ static void write_row(void *user, size_t index, unsigned worker)
 
 static void clear_outside(const wo_image *output, wo_rect window, wo_rect inside)
 {
+    if (wo_rect_contains(inside, window))
+        return;
     for (int32_t y = window.y1; y < window.y2; y++) {
         float *to = wo_image_at(output, window.x1, y);
         for (int32_t x = window.x1; x < window.x2; x++, to += 4)
@@ -222,6 +224,8 @@ wo_status wo_lens_blur_render(const wo_plan *plan, wo_rect window, const wo_imag
     clear_outside(output, window, inside);
     if (wo_rect_empty(inside))
         return WO_OK;
+    if (plan->copy)
+        return wo_lens_blur_copy(plan, inside, output, report, error);
     render_job job = {.plan = plan,
                       .view = &wo_views[plan->params.output],
                       .output = output,

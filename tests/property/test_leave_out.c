@@ -221,6 +221,78 @@ static void everything(void **state)
     }
 }
 
+/* All in focus: the source, as the rays would have it. An empty second layer keeps the plan from
+   the short way. */
+static void a_sharp_picture_is_copied(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 12; i++) {
+        scene s;
+        scene_init(&s, frame);
+        scene_px_per_dioptre(&s, 0.004);
+        s.params.samples = 16;
+        s.params.method = i % WO_METHOD_REFERENCE;
+        s.alpha[0] = (wo_alpha)(i % 3);
+        s.params.depth_mode = i % 4 == 3   ? WO_DEPTH_RAY
+                              : i % 4 == 2 ? WO_DEPTH_INVERSE
+                                           : WO_DEPTH_DISTANCE;
+        scene_fill_busy(&s, (uint64_t)i);
+        rng r = {(uint64_t)i};
+        for (int n = 0; n < 40 && i > 5; n++) { /* all that can be wrong with a picture */
+            const int32_t x = rng_int(&r, frame.x1, frame.x2 - 1);
+            const int32_t y = rng_int(&r, frame.y1, frame.y2 - 1);
+            const float odd[] = {NAN, INFINITY, -1, 0, 1e32f, 0.5f};
+            wo_image_at(&s.clip[0], x, y)[n % 4] = odd[n % 6];
+            *wo_image_at(&s.clip[1], x, y) = odd[n % 4];
+        }
+        wo_report reports[2] = {0};
+        wo_image a = scene_render(&s, &reports[0]);
+        scene_clip(&s, 2, 4);
+        wo_image b = scene_render(&s, &reports[1]);
+        const double pixels = (double)(wo_rect_width(frame) * wo_rect_height(frame));
+        assert_true(left_out(&reports[0], "everything") == 16 * pixels);
+        assert_true(left_out(&reports[1], "everything") == 0);
+        assert_true(picture_difference(&a, &b, frame) == 0);
+        assert_int_equal(reports[0].pixels, reports[1].pixels);
+        assert_int_equal(reports[0].sanitised_colour, reports[1].sanitised_colour);
+        assert_int_equal(reports[0].sanitised_depth, reports[1].sanitised_depth);
+        assert_int_equal(reports[0].tiles[WO_TILE_SHARP], reports[1].tiles[WO_TILE_SHARP]);
+        picture_free(&a);
+        picture_free(&b);
+        scene_free(&s);
+    }
+}
+
+/* One blurred pixel anywhere, and the picture is rendered. */
+static void one_blurred_pixel_is_seen(void **state)
+{
+    (void)state;
+    const int32_t at[][2] = {{-9, 5}, {182, 5}, {-9, 116}, {182, 116}, {100, 60}};
+    for (size_t i = 0; i < WO_COUNT(at); i++) {
+        scene s;
+        scene_init(&s, frame);
+        scene_px_per_dioptre(&s, 0.1);
+        s.params.samples = 16;
+        scene_fill_busy(&s, 2);
+        picture_fill(&s.clip[1], (const float[1]){2.5f});
+        wo_report reports[2] = {0};
+        wo_image a = scene_render(&s, &reports[0]);
+        picture_free(&a);
+        *wo_image_at(&s.clip[1], at[i][0], at[i][1]) = 0.9f;
+        a = scene_render(&s, &reports[1]);
+        picture_free(&a);
+        assert_true(left_out(&reports[0], "everything") > 0);
+        assert_true(left_out(&reports[1], "everything") == 0);
+        /* Unless nothing is there. */
+        memset(wo_image_at(&s.clip[0], at[i][0], at[i][1]), 0, sizeof(float[4]));
+        reports[1] = (wo_report){0};
+        a = scene_render(&s, &reports[1]);
+        picture_free(&a);
+        assert_true(left_out(&reports[1], "everything") > 0);
+        scene_free(&s);
+    }
+}
+
 /* Light through nothing, coverage of less than any number: the same as nothing there. */
 static void empty_tiles(void **state)
 {
@@ -341,11 +413,19 @@ static void unused_wavelengths(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hidden_surfaces), cmocka_unit_test(what_does_not_hide),
-        cmocka_unit_test(sharp_tiles),     cmocka_unit_test(tiles_of_one_depth),
-        cmocka_unit_test(black_tiles),     cmocka_unit_test(everything),
-        cmocka_unit_test(empty_tiles),     cmocka_unit_test(empty_layers),
-        cmocka_unit_test(masked_tiles),    cmocka_unit_test(unused_wavelengths),
+        cmocka_unit_test(hidden_surfaces),
+        cmocka_unit_test(what_does_not_hide),
+        cmocka_unit_test(sharp_tiles),
+        cmocka_unit_test(tiles_of_one_depth),
+        cmocka_unit_test(black_tiles),
+        cmocka_unit_test(everything),
+        cmocka_unit_test(a_sharp_picture_is_copied),
+        cmocka_unit_test(one_blurred_pixel_is_seen),
+
+        cmocka_unit_test(empty_tiles),
+        cmocka_unit_test(empty_layers),
+        cmocka_unit_test(masked_tiles),
+        cmocka_unit_test(unused_wavelengths),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
