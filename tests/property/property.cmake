@@ -9,7 +9,7 @@ target_include_directories(wo_test_scenes PUBLIC
 target_link_libraries(wo_test_scenes PUBLIC
     wo_core wo_base wo_options cmocka Threads::Threads m)
 
-foreach(name IN ITEMS focus_control invariance layout leave_out lens_image lens_looks quality spread)
+foreach(name IN ITEMS focus_control invariance layout leave_out lens_image lens_looks quality smoothness spread)
     add_executable(test_${name} ${property_dir}/test_${name}.c)
     target_link_libraries(test_${name} PRIVATE wo_test_scenes)
     add_test(NAME property.${name} COMMAND test_${name})
