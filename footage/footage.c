@@ -143,12 +143,12 @@ static wo_status make_stages(const wo_context *context, wo_footage *f, const wo_
     WO_TRY(wo_scene_light(context, *scene, &progress, light / all, error));
     f->seconds[0] = now() - start;
     start = now();
-    WO_TRY(wo_render_pinhole(context, *scene, &camera, f, &progress, peel / all, error));
+    WO_TRY(wo_render_through_pinhole(context, *scene, &camera, f, &progress, peel / all, error));
     f->seconds[1] = now() - start;
     if (o->reference_spp == 0)
         return WO_OK;
     start = now();
-    WO_TRY(wo_render_reference(context, *scene, &camera, f, &progress, reference / all, error));
+    WO_TRY(wo_render_through_lens(context, *scene, &camera, f, &progress, reference / all, error));
     f->seconds[2] = now() - start;
     return WO_OK;
 }

@@ -13,14 +13,15 @@
    progress. */
 
 /* Pinhole, depth, normals, layers. */
-WO_NODISCARD wo_status wo_render_pinhole(const wo_context *context, const wo_scene *scene,
-                                         const wo_camera *camera, wo_footage *footage,
-                                         wo_progress *progress, double share, wo_error *error);
+WO_NODISCARD wo_status wo_render_through_pinhole(const wo_context *context, const wo_scene *scene,
+                                                 const wo_camera *camera, wo_footage *footage,
+                                                 wo_progress *progress, double share,
+                                                 wo_error *error);
 
 /* Reference and its error. */
-WO_NODISCARD wo_status wo_render_reference(const wo_context *context, const wo_scene *scene,
-                                           const wo_camera *camera, wo_footage *footage,
-                                           wo_progress *progress, double share, wo_error *error);
+WO_NODISCARD wo_status wo_render_through_lens(const wo_context *context, const wo_scene *scene,
+                                              const wo_camera *camera, wo_footage *footage,
+                                              wo_progress *progress, double share, wo_error *error);
 
 /* Batches a reference of at least spp rays is made of, and rays of one batch. */
 void wo_render_batches(int spp, int *batches, int *rays);

@@ -193,9 +193,9 @@ static void keep_layers(const wo_context *context, task *t)
 /* With the umbra rule more is peeled, so that what moves up is not missing. */
 enum { UMBRA_SPARE = 4 };
 
-wo_status wo_render_pinhole(const wo_context *context, const wo_scene *scene,
-                            const wo_camera *camera, wo_footage *footage, wo_progress *progress,
-                            double share, wo_error *error)
+wo_status wo_render_through_pinhole(const wo_context *context, const wo_scene *scene,
+                                    const wo_camera *camera, wo_footage *footage,
+                                    wo_progress *progress, double share, wo_error *error)
 {
     const wo_footage_options *const o = &footage->options;
     wo_image layer[WO_PEEL_LAYERS_MAX] = {{0}}, layer_depth[WO_PEEL_LAYERS_MAX] = {{0}};

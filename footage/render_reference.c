@@ -240,9 +240,9 @@ static void render_row(void *user, size_t row, unsigned worker)
     wo_progress_add(t->progress, 1);
 }
 
-wo_status wo_render_reference(const wo_context *context, const wo_scene *scene,
-                              const wo_camera *camera, wo_footage *footage, wo_progress *progress,
-                              double share, wo_error *error)
+wo_status wo_render_through_lens(const wo_context *context, const wo_scene *scene,
+                                 const wo_camera *camera, wo_footage *footage,
+                                 wo_progress *progress, double share, wo_error *error)
 {
     const wo_footage_options *const o = &footage->options;
     const unsigned workers = wo_workers(context);

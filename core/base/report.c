@@ -108,6 +108,7 @@ void wo_report_add(wo_report *total, const wo_report *part)
     total->sanitised_colour += part->sanitised_colour;
     total->sanitised_depth += part->sanitised_depth;
     total->edge_depth += part->edge_depth;
+    total->mixed_depth += part->mixed_depth;
     total->clamped_radius += part->clamped_radius;
     total->largest_radius = fmax(total->largest_radius, part->largest_radius);
     for (int i = 0; i < kept(part); i++) {
@@ -266,6 +267,7 @@ int wo_report_json(const wo_report *report, char *buffer, size_t size)
     put_count(&out, "sanitised_colour", report->sanitised_colour);
     put_count(&out, "sanitised_depth", report->sanitised_depth);
     put_count(&out, "edge_depth", report->edge_depth);
+    put_count(&out, "mixed_depth", report->mixed_depth);
     put_count(&out, "clamped_radius", report->clamped_radius);
     put(&out, "\"largest_radius\": ");
     put_number(&out, report->largest_radius);

@@ -52,9 +52,7 @@ static bool trace(wo_tile_work *work, const wo_lens *lens, unsigned pass, double
     return true;
 }
 
-/* The level whose rays, after those that were traced, are likely to reach the target; -1 = none is
-   left. */
-static int next_level(const wo_defocus *scene, int last, double rays, double too_large)
+int wo_next_level(const wo_defocus *scene, int last, double rays, double too_large)
 {
     const double wanted = rays * (pow(too_large, 2 / WO_LATTICE_POWER) - 1);
     int level = -1;
@@ -88,7 +86,7 @@ bool wo_tile_sample(const wo_defocus *scene, wo_tile_work *work, wo_tile_error *
             return true;
         const double too_large =
             scene->quality.target_error > 0 ? e / scene->quality.target_error : INFINITY;
-        level = next_level(scene, level, sums->rays, too_large);
+        level = wo_next_level(scene, level, sums->rays, too_large);
         if (level < 0)
             return true;
     }

@@ -13,7 +13,7 @@
    half their difference times WO_HALVES_TO_ERROR is the standard error of the whole. Sampling ends
    when WO_ERROR_SIGMAS standard errors are below the target: what is left, nobody sees. */
 #define WO_LATTICE_POWER   1.6
-#define WO_HALVES_TO_ERROR 0.66
+#define WO_HALVES_TO_ERROR 0.60
 #define WO_ERROR_SIGMAS    3.0
 
 /* Sums of all vectors of a tile, the halves of the rays by themselves. */
@@ -29,6 +29,10 @@ typedef double wo_tile_error(void *user, const wo_tile_work *work, const wo_tile
 /* Samples a tile that is not empty. report: rays and steps. false when stopped. */
 bool wo_tile_sample(const wo_defocus *scene, wo_tile_work *work, wo_tile_error *error, void *user,
                     wo_tile_sums *sums, wo_report *report);
+
+/* The level whose rays, after those that were traced (the last of them at level last), are likely
+   to bring an error that is too_large times the target down to it; -1 = none is left. */
+int wo_next_level(const wo_defocus *scene, int last, double rays, double too_large);
 
 /* Displayed value per light about the mean of a and b, which differ by noise. */
 float wo_shown(float a, float b);

@@ -12,7 +12,7 @@
 
    What reaches a pixel is kept in three classes, by its vergence against the pixel's own surface:
    before it, of it, behind it. They are put together at the end, front to back:
-       before + (1 - A(before)) (own + (1 - A(own)) behind / W(behind)).
+       before + (1 - A(before)) (own + (1 - A(own)) behind / max(W(behind), A(behind))).
    Classes are told apart by more than CLASS_PX of blur, and more the farther the tap is away, so
    that a slope remains one surface. */
 
@@ -41,11 +41,12 @@ typedef struct wo_filter_view {
 typedef struct wo_filter_taps {
     int count;
     int dx[WO_PENCIL_PIECE], dy[WO_PENCIL_PIECE];
-    float away[WO_PENCIL_PIECE];   /* px */
-    float before[WO_PENCIL_PIECE]; /* px, over the extent of the aperture in this direction: a
-                                      surface before the focus that reaches so far is met; */
-    float behind[WO_PENCIL_PIECE]; /* behind the focus; infinite = not asked */
-    float area[WO_PENCIL_PIECE];   /* px^2 that the tap stands for */
+    float away[WO_PENCIL_PIECE]; /* px */
+    /* A surface that reaches so far is met; px over the extent of the aperture in the direction of
+       the tap, but for the first px; infinite = not asked. */
+    float before[WO_PENCIL_PIECE]; /* surfaces before the focus */
+    float behind[WO_PENCIL_PIECE];
+    float area[WO_PENCIL_PIECE]; /* px^2 that the tap stands for */
 } wo_filter_taps;
 
 enum { WO_FILTER_BEFORE, WO_FILTER_OWN, WO_FILTER_BEHIND, WO_FILTER_CLASSES };
@@ -57,8 +58,8 @@ typedef struct wo_filter_sums {
     float expected[WO_LANES];  /* area that the pixel's own circle takes */
     float own_share[WO_LANES]; /* of the pixel's own surface: with expected A(own), were all the
                                   world like the pixel */
-    float open[WO_LANES];      /* area of taps where the scene may let light through */
-    float area;                /* of all taps */
+    float open[WO_LANES];      /* part of expected where the scene may let light through */
+    bool own_open[WO_LANES];   /* it may at the pixel itself */
 } wo_filter_sums;
 
 /* Adds taps to sums; (x, y), run_index as in march.h. Returns lookups, each for one pixel. */

@@ -94,11 +94,10 @@ static int64_t gather(const wo_filter_view *view, int32_t x, int32_t y, int run_
         const vf area = v_set(taps->area[i]);
         const vf before = v_set(taps->before[i]);
         const vf behind = v_set(taps->behind[i]);
-        const vf expected = met(own_reach, v_select(own_behind, behind, before), hole);
-        t.expected = v_fma(expected, area, t.expected);
-        sums->area += taps->area[i];
+        const vf expected = v_mul(met(own_reach, v_select(own_behind, behind, before), hole), area);
+        t.expected = v_add(t.expected, expected);
         if (view->open)
-            t.open = v_fma(area, v_load(view->open + at), t.open);
+            t.open = v_fma(expected, v_load(view->open + at), t.open);
 
         const vf d = v_load(view->near.d + at);
         const vf near_met =
@@ -146,6 +145,8 @@ static int64_t gather(const wo_filter_view *view, int32_t x, int32_t y, int run_
     v_store(sums->behind, t.behind);
     v_store(sums->expected, t.expected);
     v_store(sums->own_share, v_load(view->near.share + here));
+    for (int i = 0; i < WO_LANES && view->open; i++)
+        sums->own_open[i] = view->open[here + i] > 0;
     v_store(sums->open, t.open);
     return steps * WO_LANES;
 }

@@ -105,6 +105,47 @@ static void shape_of_survey(const survey *s, const wo_lens *lens, wo_filter_shap
         shape->outer[i] /= shape->ppd;
 }
 
+static void measure(double reach, double *radius, double *area)
+{
+    enum { AROUND = 5 };
+    double sum = 0;
+    double moment = 0;
+    for (int y = -AROUND; y <= AROUND; y++)
+        for (int x = -AROUND; x <= AROUND; x++) {
+            const double w = fmin(fmax(reach - sqrt(x * x + y * y) + 0.5, 0), 1);
+            sum += w;
+            moment += w * x * x;
+        }
+    *radius = 2 * sqrt(moment / sum);
+    *area = sum;
+}
+
+void wo_filter_discs_make(wo_filter_discs *discs)
+{
+    const double step = 1.0 / 256;
+    /* Up to a radius of 1 only the four nearest neighbours are reached. */
+    double reach = 0.75;
+    double r[2] = {1, 1};
+    double area[2] = {2, 2};
+    for (int i = 0; i < WO_FILTER_RADII + 2; i++) {
+        const double want = (double)i / WO_FILTER_FINE;
+        if (want <= 1) {
+            const double edge = want * want / (8 - 4 * want * want);
+            discs->reach[i] = (float)(0.5 + edge);
+            discs->share[i] = (float)(1 / (1 + 4 * edge));
+            continue;
+        }
+        while (r[1] < want) {
+            r[0] = r[1];
+            area[0] = area[1];
+            measure(reach += step, &r[1], &area[1]);
+        }
+        const double t = r[1] > r[0] ? (want - r[0]) / (r[1] - r[0]) : 1;
+        discs->reach[i] = (float)(reach - step * (1 - t));
+        discs->share[i] = (float)(1 / (area[0] + t * (area[1] - area[0])));
+    }
+}
+
 typedef struct make_job {
     const wo_context *context;
     wo_filter_scene *scene;
@@ -203,7 +244,7 @@ static void set(surfaces *to, int i, const surface *from)
 }
 
 static void put(float *const planes[7], ptrdiff_t at, const surfaces *s,
-                const wo_filter_shape *shape)
+                const wo_filter_discs *discs, const wo_filter_shape *shape)
 {
     float d[WO_LANES];
     float reach[WO_LANES];
@@ -211,11 +252,15 @@ static void put(float *const planes[7], ptrdiff_t at, const surfaces *s,
     float light[4][WO_LANES];
     for (int i = 0; i < WO_LANES; i++) {
         const bool any = s->v[i] == s->v[i];
-        const float far = (s->v[i] - shape->v0) * shape->ppd;
-        const float r = wo_filter_reach(wo_filter_radius(shape, far));
+        const float v = any ? s->v[i] : shape->v0;
+        const float far = (v - shape->v0) * shape->ppd;
+        wo_filter_disc(discs, wo_filter_radius(shape, far), shape->hole, &reach[i], &share[i]);
         d[i] = any ? far : WO_FILTER_NONE;
-        reach[i] = any ? r : WO_FILTER_NONE;
-        share[i] = any ? wo_filter_share(r, shape->hole) : 0;
+        reach[i] = any ? reach[i] : WO_FILTER_NONE;
+        share[i] = any ? share[i] : 0;
+    }
+    for (int i = 0; i < WO_LANES; i++) {
+        const bool any = s->v[i] == s->v[i];
         for (int k = 0; k < 3; k++)
             light[k][i] = any ? s->c[k][i] * share[i] : 0;
         light[3][i] = any ? s->c[3][i] : 0;
@@ -279,10 +324,10 @@ static uint8_t fill_vector(const make_job *job, const int *sheets, int count,
         set(&pair[1], i, &two[1]);
         flags |= two[1].v == two[1].v ? WO_FILTER_FAR : 0;
     }
-    put(job->near, to, &pair[0], shape);
+    put(job->near, to, &pair[0], &job->scene->discs, shape);
     /* What is left 0 counts as nothing. */
     if (flags & WO_FILTER_FAR) {
-        put(job->far, to, &pair[1], shape);
+        put(job->far, to, &pair[1], &job->scene->discs, shape);
         memcpy(job->far[7] + to, pair[1].guessed, sizeof pair[1].guessed);
     }
     for (int i = 0; i < WO_LANES; i++) {
@@ -374,6 +419,7 @@ wo_status wo_filter_scene_create(const wo_context *context, const wo_stack *stac
     }
     make_job job = {.context = context, .scene = scene};
     give_planes(&job, plane);
+    wo_filter_discs_make(&scene->discs);
     wo_run(context, shape_block, &job, blocks);
     wo_run(context, fill_row, &job, rows);
     if (!wo_aborted(context))

@@ -24,25 +24,34 @@ typedef struct wo_filter_shape {
 /* Direction of (x, y), not (0, 0): 0..WO_FILTER_BINS - 1. */
 int wo_filter_bin(float x, float y);
 
-/* The soft disc that stands for a circle of confusion of radius r, in px: it reaches so far, half
-   of its edge of one px beyond, and a pixel under it gets this share of the light. Its second
-   moment over the pixels is that of the circle, so that small circles blur as much as they should;
-   radius 0 reaches no neighbour. */
-static inline float wo_filter_reach(float r)
-{
-    const float rr = r * r;
-    const float small = rr < 1 ? 1 - rr : 0;
-    const float inner = small * (0.6875f + 0.3125f * small);
-    const float moment = rr - 5.0f / 12 + 0.66666f * inner;
-    return sqrtf(moment > 0.25f ? moment : 0.25f);
-}
+/* Soft discs for circles of confusion of radius i / WO_FILTER_FINE px: they reach so far, half of
+   their edge of one px beyond, and a pixel under one gets this share of the light. The second
+   moment of a disc over the pixels is that of the circle, so that small circles blur as much as
+   they should and grow evenly; radius 0 reaches no neighbour. */
+enum { WO_FILTER_FINE = 32, WO_FILTER_RADII = 3 * WO_FILTER_FINE };
+typedef struct wo_filter_discs {
+    float reach[WO_FILTER_RADII + 2];
+    float share[WO_FILTER_RADII + 2];
+} wo_filter_discs;
+void wo_filter_discs_make(wo_filter_discs *discs);
 
-static inline float wo_filter_share(float reach, float hole)
+/* The disc for radius r; hole as in wo_filter_shape. */
+static inline void wo_filter_disc(const wo_filter_discs *discs, float r, float hole, float *reach,
+                                  float *share)
 {
-    const float gap = (reach - 0.5f) * hole - 0.5f;
-    const float open = gap > 0 ? gap * gap : 0;
-    const float area = 3.14159265f * (reach * reach + 0.0683f - open);
-    return area > 1 ? 1 / area : 1;
+    const float at = r * WO_FILTER_FINE;
+    if (at < WO_FILTER_RADII) {
+        const int i = (int)at;
+        const float t = at - (float)i;
+        *reach = discs->reach[i] + t * (discs->reach[i + 1] - discs->reach[i]);
+        *share = discs->share[i] + t * (discs->share[i + 1] - discs->share[i]);
+    } else {
+        *reach = sqrtf(r * r - 5.0f / 12);
+        *share = 1 / (3.14159265f * (*reach * *reach + 1.0f / 12));
+    }
+    const float gap = (*reach - 0.5f) * hole - 0.5f;
+    if (gap > 0)
+        *share /= 1 - 3.14159265f * gap * gap * *share;
 }
 
 /* Radius of the circle of confusion d px from the smallest. */
@@ -55,6 +64,7 @@ static inline float wo_filter_radius(const wo_filter_shape *shape, float d)
 typedef struct wo_filter_scene {
     const wo_stack *stack;
     const wo_lens *lens;
+    wo_filter_discs discs;
     wo_rect area;   /* of the pictures: on the grid of a stack */
     wo_rect blocks; /* of shapes, in units of blocks, absolute */
     wo_filter_shape *shape;

@@ -20,7 +20,7 @@
 
 /* What the rays leave of a pixel, as fractions of all light: one plane of floats each. */
 enum {
-    WO_HYBRID_NEAR,                                /* r g b a, and a over vergence */
+    WO_HYBRID_NEAR,                                /* as WO_PART_* */
     WO_HYBRID_FAR = WO_HYBRID_NEAR + WO_PART_SUMS, /* the same behind the focus */
     WO_HYBRID_REST = WO_HYBRID_FAR + WO_PART_SUMS, /* r g b a of what is neither */
     WO_HYBRID_LEFT = WO_HYBRID_REST + 4,           /* light that nothing stopped */
@@ -65,11 +65,14 @@ typedef struct wo_hybrid {
     wo_rect area;  /* of these tiles, px */
     ptrdiff_t width;
     float *memory;
+    /* Coverage is one plane for all colours if the lens does not part them. */
     float *plane[WO_HYBRID_PLANES];
     float *rays;     /* [tiles] a pixel */
     uint8_t *wanted; /* [tiles] */
     wo_hybrid_cell *cells;
     int32_t columns, rows; /* of cells */
+    wo_rect inner; /* cells of the format's tiles: they look at no others, so that a render of
+                      the format traces nothing beyond it */
     wo_hybrid_kernel kernels[WO_HYBRID_KERNELS];
 } wo_hybrid;
 
@@ -77,6 +80,9 @@ typedef struct wo_hybrid {
    many rays a pixel. */
 int wo_hybrid_kernel_for(const wo_hybrid *hybrid, bool near, double rays, double coverage,
                          double by_vergence);
+
+/* Cells that the cell (column, row) may look at, from the area's corner. */
+wo_rect wo_hybrid_view(const wo_hybrid *hybrid, int32_t column, int32_t row);
 
 /* Fills the planes of one tile. false when stopped. */
 bool wo_hybrid_trace(wo_hybrid *hybrid, int32_t tx, int32_t ty, wo_report *part);

@@ -6,8 +6,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Neighbours share rays, and a little detail moves: measured on footage. */
-#define SMOOTH_LEAVES 3.0f
+/* Of the variance of noise smoothing leaves more than one part in as many as there are taps:
+   neighbours share rays, and a little detail moves. Measured on footage. */
+#define SMOOTH_LEAVES 2.0f
+#define SMOOTH_MOVES  0.02f
 
 void wo_hybrid_kernels(wo_hybrid_kernel kernels[WO_HYBRID_KERNELS])
 {
@@ -39,7 +41,7 @@ void wo_hybrid_kernels(wo_hybrid_kernel kernels[WO_HYBRID_KERNELS])
         }
         for (int i = 0; i < k->count; i++)
             k->weight[i] = 1.0f / (float)k->count;
-        k->gain = fminf(1, SMOOTH_LEAVES / (float)k->count);
+        k->gain = k->count > 1 ? fminf(1, SMOOTH_LEAVES / (float)k->count + SMOOTH_MOVES) : 1;
     }
 }
 
@@ -69,19 +71,45 @@ int wo_hybrid_kernel_for(const wo_hybrid *h, bool near, double rays, double cove
     return (int)(q < 0 ? 0 : q > WO_HYBRID_KERNELS - 1 ? WO_HYBRID_KERNELS - 1 : q + 0.5);
 }
 
+wo_rect wo_hybrid_view(const wo_hybrid *h, int32_t column, int32_t row)
+{
+    const wo_rect cell = {column, row, column + 1, row + 1};
+    const wo_rect all = {0, 0, h->columns, h->rows};
+    return wo_rect_contains(h->inner, cell) ? h->inner : all;
+}
+
+/* The same in pixels, for the cell with this corner. */
+static wo_rect pixels_seen(const wo_hybrid *h, int32_t left, int32_t low)
+{
+    const wo_rect r = wo_hybrid_view(h, left / WO_HYBRID_CELL, low / WO_HYBRID_CELL);
+    return (wo_rect){r.x1 * WO_HYBRID_CELL, r.y1 * WO_HYBRID_CELL, r.x2 * WO_HYBRID_CELL,
+                     r.y2 * WO_HYBRID_CELL};
+}
+
+static int32_t clamp_to(int32_t x, int32_t from, int32_t to)
+{
+    return x < from ? from : x >= to ? to - 1 : x;
+}
+
 void wo_hybrid_choose(wo_hybrid *h, int32_t row)
 {
-    static const int sums[] = {WO_HYBRID_NEAR + 3, WO_HYBRID_NEAR + 4,  WO_HYBRID_FAR + 3,
-                               WO_HYBRID_FAR + 4,  WO_HYBRID_NOISE + 0, WO_HYBRID_NOISE + 1,
+    /* Green stands for all colours. */
+    static const int sums[] = {WO_HYBRID_NEAR + WO_PART_COVERAGE + 1,
+                               WO_HYBRID_NEAR + WO_PART_BLUR,
+                               WO_HYBRID_FAR + WO_PART_COVERAGE + 1,
+                               WO_HYBRID_FAR + WO_PART_BLUR,
+                               WO_HYBRID_NOISE + 0,
+                               WO_HYBRID_NOISE + 1,
                                WO_HYBRID_NOISE + 2};
     enum { SUMS = sizeof sums / sizeof sums[0] };
     for (int32_t column = 0; column < h->columns; column++) {
         double sum[SUMS] = {0};
         int cells = 0;
         double own = 0;
+        const wo_rect view = wo_hybrid_view(h, column, row);
         for (int32_t b = row - 1; b <= row + 1; b++) {
             for (int32_t a = column - 1; a <= column + 1; a++) {
-                if (a < 0 || b < 0 || a >= h->columns || b >= h->rows)
+                if (a < view.x1 || b < view.y1 || a >= view.x2 || b >= view.y2)
                     continue;
                 const ptrdiff_t at = cell_origin(h, a, b);
                 cells++;
@@ -114,11 +142,10 @@ typedef float block[WO_HYBRID_CELL][WO_HYBRID_CELL];
 static void smooth(const wo_hybrid *h, const wo_hybrid_kernel *k, int32_t left, int32_t low,
                    int from, int count, block *out)
 {
-    const int32_t w = wo_rect_width(h->area);
-    const int32_t height = wo_rect_height(h->area);
-    const bool inside = left >= WO_HYBRID_REACH && low >= WO_HYBRID_REACH &&
-                        left + WO_HYBRID_CELL + WO_HYBRID_REACH <= w &&
-                        low + WO_HYBRID_CELL + WO_HYBRID_REACH <= height;
+    const wo_rect seen = pixels_seen(h, left, low);
+    const wo_rect cell = {left, low, left + WO_HYBRID_CELL, low + WO_HYBRID_CELL};
+    const bool inside =
+        wo_rect_contains(seen, wo_rect_grow(cell, WO_HYBRID_REACH, WO_HYBRID_REACH));
     memset(out, 0, (size_t)count * sizeof *out);
     for (int i = 0; i < k->count; i++) {
         const float weight = k->weight[i];
@@ -133,10 +160,9 @@ static void smooth(const wo_hybrid *h, const wo_hybrid_kernel *k, int32_t left, 
                 }
                 continue;
             }
-            row = row < 0 ? 0 : row >= height ? height - 1 : row;
+            row = clamp_to(row, seen.y1, seen.y2);
             for (int x = 0; x < WO_HYBRID_CELL; x++) {
-                int32_t column = left + x + k->x[i];
-                column = column < 0 ? 0 : column >= w ? w - 1 : column;
+                const int32_t column = clamp_to(left + x + k->x[i], seen.x1, seen.x2);
                 for (int p = 0; p < count; p++)
                     out[p][y][x] += weight * h->plane[from + p][row * h->width + column];
             }
@@ -144,27 +170,43 @@ static void smooth(const wo_hybrid *h, const wo_hybrid_kernel *k, int32_t left, 
     }
 }
 
+/* Mean over red, green and blue; the same to the bit where they agree. */
+static float mean_of(float r, float g, float b)
+{
+    return r == g && g == b ? r : (r + g + b) * (1.0f / 3);
+}
+
+static float coverage_at(const wo_hybrid *h, int part, int k, ptrdiff_t at)
+{
+    return h->plane[part + WO_PART_COVERAGE + k][at];
+}
+
+static float mean_coverage(const wo_hybrid *h, int part, ptrdiff_t at)
+{
+    return mean_of(coverage_at(h, part, 0, at), coverage_at(h, part, 1, at),
+                   coverage_at(h, part, 2, at));
+}
+
 /* Colour of what lies behind the near part, where a pixel's own rays saw almost nothing of it. */
 static void look_around(const wo_hybrid *h, const wo_hybrid_kernel *k, int32_t x, int32_t y,
                         float behind[4])
 {
-    const int32_t w = wo_rect_width(h->area);
-    const int32_t height = wo_rect_height(h->area);
-    float open = 0;
-    for (int c = 0; c < 4; c++)
-        behind[c] = 0;
+    const wo_rect seen = pixels_seen(h, x, y);
+    float open[4] = {0};
+    memset(behind, 0, 4 * sizeof *behind);
     for (int i = 0; i < k->count; i++) {
-        int32_t column = x + k->x[i];
-        int32_t row = y + k->y[i];
-        column = column < 0 ? 0 : column >= w ? w - 1 : column;
-        row = row < 0 ? 0 : row >= height ? height - 1 : row;
+        const int32_t column = clamp_to(x + k->x[i], seen.x1, seen.x2);
+        const int32_t row = clamp_to(y + k->y[i], seen.y1, seen.y2);
         const ptrdiff_t at = row * h->width + column;
-        for (int c = 0; c < 4; c++)
+        for (int c = 0; c < 3; c++) {
             behind[c] += h->plane[WO_HYBRID_REST + c][at] + h->plane[WO_HYBRID_FAR + c][at];
-        open += 1 - h->plane[WO_HYBRID_NEAR + 3][at];
+            open[c] += 1 - coverage_at(h, WO_HYBRID_NEAR, c, at);
+        }
+        behind[3] += h->plane[WO_HYBRID_REST + 3][at] + mean_coverage(h, WO_HYBRID_FAR, at);
+        open[3] += 1 - mean_coverage(h, WO_HYBRID_NEAR, at);
     }
     for (int c = 0; c < 4; c++)
-        behind[c] = open > 0 ? behind[c] / open : 0;
+        behind[c] = open[c] > 0 ? behind[c] / open[c] : 0;
 }
 
 /* Light less than this says nothing about what it came from. */
@@ -179,13 +221,23 @@ static void add_up(const wo_hybrid *h, int32_t left, int32_t low, colours out)
     for (int y = 0; y < WO_HYBRID_CELL; y++) {
         for (int x = 0; x < WO_HYBRID_CELL; x++) {
             const ptrdiff_t at = (low + y) * h->width + left + x;
-            for (int k = 0; k < 4; k++)
+            for (int k = 0; k < 3; k++)
                 out[y][x][k] = h->plane[WO_HYBRID_REST + k][at] + h->plane[WO_HYBRID_FAR + k][at] +
                                h->plane[WO_HYBRID_NEAR + k][at];
+            out[y][x][3] = h->plane[WO_HYBRID_REST + 3][at] + mean_coverage(h, WO_HYBRID_FAR, at) +
+                           mean_coverage(h, WO_HYBRID_NEAR, at);
             if (h->plane[WO_HYBRID_LEFT][at] == 0)
                 out[y][x][3] = 1;
         }
     }
+}
+
+/* Three colours and their coverages: of these, those that differ. */
+enum { SMOOTHED = WO_PART_COVERAGE + 3 };
+
+static int planes_of(const wo_hybrid *h)
+{
+    return h->scene->lens->colours ? SMOOTHED : WO_PART_COVERAGE + 1;
 }
 
 /* The parts with near and far smoothed. */
@@ -193,33 +245,38 @@ static void add_up_smooth(const wo_hybrid *h, const wo_hybrid_cell *cell, int32_
                           colours out)
 {
     const wo_hybrid_kernel *const near_kernel = &h->kernels[cell->near];
-    block near[4];
-    block far[4];
-    smooth(h, near_kernel, left, low, WO_HYBRID_NEAR, 4, near);
+    block near[SMOOTHED];
+    block far[SMOOTHED];
+    smooth(h, near_kernel, left, low, WO_HYBRID_NEAR, planes_of(h), near);
     if (cell->far > 0)
-        smooth(h, &h->kernels[cell->far], left, low, WO_HYBRID_FAR, 4, far);
+        smooth(h, &h->kernels[cell->far], left, low, WO_HYBRID_FAR, planes_of(h), far);
     for (int y = 0; y < WO_HYBRID_CELL; y++) {
         for (int x = 0; x < WO_HYBRID_CELL; x++) {
             const ptrdiff_t at = (low + y) * h->width + left + x;
             float behind[4];
-            for (int k = 0; k < 4; k++) {
+            float open[4];
+            float covered[4];
+            for (int k = 0; k < 3; k++) {
+                const int a = h->scene->lens->colours ? WO_PART_COVERAGE + k : WO_PART_COVERAGE;
                 behind[k] = h->plane[WO_HYBRID_REST + k][at];
                 /* What is far keeps its part of the light and takes its colour from around. */
-                if (cell->far > 0 && k < 3 && far[3][y][x] > OPEN_MIN)
-                    behind[k] += h->plane[WO_HYBRID_FAR + 3][at] * far[k][y][x] / far[3][y][x];
+                if (cell->far > 0 && far[a][y][x] > OPEN_MIN)
+                    behind[k] += coverage_at(h, WO_HYBRID_FAR, k, at) * far[k][y][x] / far[a][y][x];
                 else
                     behind[k] += h->plane[WO_HYBRID_FAR + k][at];
+                open[k] = 1 - coverage_at(h, WO_HYBRID_NEAR, k, at);
+                covered[k] = fminf(fmaxf(near[a][y][x], 0), 1);
             }
-            const float open = 1 - h->plane[WO_HYBRID_NEAR + 3][at];
-            const float covered = fminf(fmaxf(near[3][y][x], 0), 1);
-            float scale = 1 - covered;
-            if (open < OPEN_MIN)
+            behind[3] = h->plane[WO_HYBRID_REST + 3][at] + mean_coverage(h, WO_HYBRID_FAR, at);
+            open[3] = 1 - mean_coverage(h, WO_HYBRID_NEAR, at);
+            covered[3] = mean_of(covered[0], covered[1], covered[2]);
+            const bool closed = fminf(fminf(open[0], open[1]), open[2]) < OPEN_MIN;
+            if (closed)
                 look_around(h, near_kernel, left + x, low + y, behind);
-            else
-                scale /= open;
             float *const c = out[y][x];
             for (int k = 0; k < 4; k++)
-                c[k] = near[k][y][x] + scale * behind[k];
+                c[k] = (k < 3 ? near[k][y][x] : covered[3]) +
+                       (1 - covered[k]) * (closed ? behind[k] : behind[k] / open[k]);
             if (h->plane[WO_HYBRID_LEFT][at] == 0)
                 c[3] = 1;
         }
@@ -232,7 +289,7 @@ static float root(float x)
 }
 
 /* The estimate of noise in one cell may be too small by this. */
-#define JITTER_TRUST 2.5f
+#define JITTER_TRUST 4.0f
 
 /* Smoothing takes noise away, and detail. Their sum is what it moves; the part of it that noise
    explains is taken (James and Stein 1961). */
@@ -282,7 +339,11 @@ void wo_hybrid_join(const wo_hybrid *h, int32_t tx, int32_t ty, wo_tile_pixels *
                 pixels->guessed[y][x0 + x] =
                     h->plane[WO_HYBRID_GUESSED][(low + y) * h->width + left + x];
                 facts->error[y][x0 + x] = (float)WO_HALVES_TO_ERROR * sqrtf(noise);
+                const ptrdiff_t at = (low + y) * h->width + left + x;
                 facts->rays[y][x0 + x] = h->rays[tile];
+                facts->mask[y][x0 + x] *=
+                    1 - part * ((cell->near > 0 ? mean_coverage(h, WO_HYBRID_NEAR, at) : 0) +
+                                (cell->far > 0 ? mean_coverage(h, WO_HYBRID_FAR, at) : 0));
             }
         }
     }

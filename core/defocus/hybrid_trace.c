@@ -15,17 +15,11 @@ typedef struct split {
     float near[WO_PART_SUMS], far[WO_PART_SUMS];
 } split;
 
-/* Channel whose weight a part has. */
-static int channel_of(int k)
-{
-    return k < 3 ? k : 3;
-}
-
 static void part_of(const wo_march_sums *sums, int i, const float sum[WO_PART_SUMS][WO_LANES],
                     float out[WO_PART_SUMS])
 {
     for (int k = 0; k < WO_PART_SUMS; k++) {
-        const float weight = sums->weight[channel_of(k)][i];
+        const float weight = sums->weight[k < WO_PART_BLUR ? k % 3 : 3][i];
         out[k] = weight > 0 ? sum[k][i] / weight : 0;
     }
 }
@@ -41,8 +35,11 @@ static void split_single(const wo_tile_work *work, split *s)
         if (!near && !(b.v_max < -work->view.v_apart))
             continue;
         float *const part = near ? s->near : s->far;
-        memcpy(part, s->c, sizeof s->c);
-        part[4] = s->c[3] / fabsf(0.5f * (b.v_min + b.v_max));
+        for (int k = 0; k < 3; k++) {
+            part[k] = s->c[k];
+            part[WO_PART_COVERAGE + k] = s->c[3];
+        }
+        part[WO_PART_BLUR] = s->c[3] / fabsf(0.5f * (b.v_min + b.v_max));
     }
 }
 
@@ -65,13 +62,14 @@ static bool split_pixel(const wo_tile_work *work, const wo_march_sums *sums, int
    err together: what counts is the part against that which fills the light left by it. */
 static void noise_of(const split *all, const split *a, const split *b, float noise[NOISES])
 {
-    const float open = 1 - all->near[3];
-    const float far_a = all->far[3];
     for (int k = 0; k < 3; k++) {
+        const int a_k = WO_PART_COVERAGE + k;
+        const float open = 1 - all->near[a_k];
+        const float far_a = all->far[a_k];
         const float behind = open > 1e-3f ? (all->c[k] - all->near[k]) / open : all->near[k];
         const float beyond = far_a > 1e-3f ? all->far[k] / far_a : 0;
-        const float near = a->near[k] - b->near[k] - behind * (a->near[3] - b->near[3]);
-        const float far = a->far[k] - b->far[k] - beyond * (a->far[3] - b->far[3]);
+        const float near = a->near[k] - b->near[k] - behind * (a->near[a_k] - b->near[a_k]);
+        const float far = a->far[k] - b->far[k] - beyond * (a->far[a_k] - b->far[a_k]);
         const float rest = a->c[k] - b->c[k] - near - far;
         const float d[3] = {near, far, rest};
         const float root = 0.25f * (near + far) / sqrtf(fmaxf(fabsf(all->c[k]), 1e-4f));
@@ -84,6 +82,13 @@ static void noise_of(const split *all, const split *a, const split *b, float noi
     }
 }
 
+/* Over red, green and blue; the same to the bit where they agree. */
+static float mean_coverage(const float part[WO_PART_SUMS])
+{
+    const float *const a = part + WO_PART_COVERAGE;
+    return a[0] == a[1] && a[1] == a[2] ? a[0] : (a[0] + a[1] + a[2]) * (1.0f / 3);
+}
+
 static void put(wo_hybrid *h, ptrdiff_t at, const split *s, float guessed,
                 const float noise[NOISES])
 {
@@ -91,8 +96,9 @@ static void put(wo_hybrid *h, ptrdiff_t at, const split *s, float guessed,
         h->plane[WO_HYBRID_NEAR + k][at] = s->near[k];
         h->plane[WO_HYBRID_FAR + k][at] = s->far[k];
     }
-    for (int k = 0; k < 4; k++)
+    for (int k = 0; k < 3; k++)
         h->plane[WO_HYBRID_REST + k][at] = s->c[k] - s->near[k] - s->far[k];
+    h->plane[WO_HYBRID_REST + 3][at] = s->c[3] - mean_coverage(s->near) - mean_coverage(s->far);
     h->plane[WO_HYBRID_LEFT][at] = 1 - s->c[3];
     h->plane[WO_HYBRID_GUESSED][at] = guessed;
     for (int n = 0; n < NOISES; n++)
@@ -130,10 +136,10 @@ static double error_of(void *user, const wo_tile_work *work, const wo_tile_sums 
                 look_at(work, sums, row, x % WO_PHASES, x / WO_PHASES, &s, one);
                 for (int n = 0; n < 3; n++)
                     noise[n] += (double)one[n];
-                for (int n = 0; n < 2; n++) {
-                    near[n] += (double)s.near[3 + n];
-                    far[n] += (double)s.far[3 + n];
-                }
+                near[0] += (double)mean_coverage(s.near);
+                near[1] += (double)s.near[WO_PART_BLUR];
+                far[0] += (double)mean_coverage(s.far);
+                far[1] += (double)s.far[WO_PART_BLUR];
             }
         }
         const int near_kernel = wo_hybrid_kernel_for(h, true, sums->rays, near[0], near[1]);
@@ -173,7 +179,9 @@ bool wo_hybrid_trace(wo_hybrid *h, int32_t tx, int32_t ty, wo_report *part)
             float noise[NOISES];
             look_at(&work, &sums, row, run_index, i, &all, noise);
             put(h, origin + row * h->width + x, &all,
-                (halves[0].guessed[i] + halves[1].guessed[i]) / (float)sums.scale, noise);
+                fminf(fmaxf((halves[0].guessed[i] + halves[1].guessed[i]) / (float)sums.scale, 0),
+                      1),
+                noise);
         }
     }
     return true;

@@ -204,18 +204,32 @@ static wo_march_view view_of(const wo_lens_rays *rays, const wo_ray_tile *tile)
     return view;
 }
 
-/* Colour straight through the pixel, for a pixel all of whose rays were lost, or all of one
-   colour's in a corner that few rays reach. */
+/* Colour straight through the pixel, nearest surface first, for a pixel all of whose rays were
+   lost, or all of one colour's in a corner that few rays reach. As for a ray: where the scene is
+   opaque, what was not stopped does not count. */
 static void straight_through(const wo_march_view *view, ptrdiff_t at, float c[4])
 {
-    float best = -INFINITY;
-    for (int s = 0; s < view->sheets; s++) {
-        if (!(view->v[s][at] > best))
-            continue;
-        best = view->v[s][at];
-        for (int k = 0; k < 4; k++)
-            c[k] = view->c[s][k][at];
+    float sum[3] = {0};
+    float light = 1;
+    float last = INFINITY;
+    for (int i = 0; i < view->sheets && light > WO_LIGHT_MIN; i++) {
+        int next = -1;
+        for (int s = 0; s < view->sheets; s++)
+            if (view->v[s][at] < last && (next < 0 || view->v[s][at] > view->v[next][at]))
+                next = s;
+        if (next < 0)
+            break;
+        last = view->v[next][at];
+        for (int k = 0; k < 3; k++)
+            sum[k] += light * view->c[next][k][at];
+        light -= light * view->c[next][3][at];
     }
+    const float stopped = 1 - light;
+    const bool ends = light <= WO_LIGHT_MIN || view->opaque[at] > 0.5f;
+    const float weight = ends ? stopped : 1;
+    for (int k = 0; k < 3; k++)
+        c[k] = weight > 0 ? sum[k] / weight : 0;
+    c[3] = weight > 0 ? stopped / weight : 0;
 }
 
 void wo_march_add(wo_march_sums *total, const wo_march_sums *part)
@@ -249,7 +263,7 @@ bool wo_tile_work_pixel(const wo_tile_work *work, const wo_march_sums *sums, int
     for (int k = 0; k < 4; k++)
         if (sums->weight[k][i] > 0)
             c[k] = sums->c[k][i] / sums->weight[k][i];
-    c[3] = fminf(c[3], 1);
+    c[3] = fminf(fmaxf(c[3], 0), 1);
     return !lost;
 }
 
@@ -291,9 +305,10 @@ bool wo_tile_work_vector(wo_tile_work *work, const wo_lens *lens, unsigned pass,
     wo_march_function *kernel = work->tile->class == WO_TILE_SINGLE ? kernels->single
                                 : isfinite(work->view.v_apart)      ? kernels->march_apart
                                                                     : kernels->march;
-    /* Neighbours down the picture use consecutive pencils, whose shifts are spread evenly. */
-    const uint32_t set = wo_hash((uint32_t)work->tx + 0x2545f491u * pass) +
-                         WO_PHASES * (uint32_t)(work->rect.y1 + row) + (uint32_t)run_index;
+    /* At random: pencils in order would draw their pattern on the picture. */
+    const uint32_t where = (uint32_t)work->tx * 0x9e3779b1u +
+                           (uint32_t)(work->rect.y1 + row) * 0x85ebca77u + 0x2545f491u * pass;
+    const uint32_t set = wo_hash(wo_hash(where) + 0x3c6ef372u * (uint32_t)run_index);
     halves[0] = halves[1] = (wo_march_sums){0};
     if (straight) {
         const wo_pencil ray = {.count = 1, .ax = zero, .ay = zero, .bx = zero, .by = zero};
@@ -345,7 +360,7 @@ bool wo_lens_rays_tile(const wo_lens_rays *rays, const wo_context *context, int3
             for (int i = 0; i < WO_LANES; i++) {
                 const int x = run_index + WO_PHASES * i;
                 wo_tile_work_pixel(&work, sums, row, run_index, i, pixels->c[row][x]);
-                pixels->guessed[row][x] = sums->guessed[i] / (float)count;
+                pixels->guessed[row][x] = fminf(fmaxf(sums->guessed[i] / (float)count, 0), 1);
             }
         }
     }

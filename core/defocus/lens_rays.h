@@ -31,6 +31,8 @@ typedef struct wo_lens_rays {
 
 /* px that a ray looks beyond its reach: interpolation and rounding. */
 #define WO_RAYS_MARGIN 3
+/* The same for stacks: pieces and coarser levels (pieces.h) look at whole cells beyond that. */
+#define WO_STACK_MARGIN 20
 
 /* What a plan may leave out; all of it but in tests, which look at the difference. */
 enum {
@@ -50,7 +52,7 @@ wo_rect wo_tiles_of(wo_rect r);
 bool wo_lens_rays_blocks(const wo_lens_rays *rays, int sheet, wo_rect r, float *v_min);
 
 /* Classes for the tiles that touch window. leave_out: WO_LEAVE_OUT_*. max_reach: no ray goes
-   farther, px; the stack must hold those tiles grown by max_reach + WO_RAYS_MARGIN. */
+   farther, px; the stack must hold those tiles grown by max_reach + WO_STACK_MARGIN. */
 WO_NODISCARD wo_status wo_lens_rays_create(const wo_context *context, const wo_stack *stack,
                                            const wo_lens *lens, wo_rect window, double max_reach,
                                            unsigned leave_out, wo_lens_rays *rays, wo_error *error);

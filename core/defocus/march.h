@@ -38,9 +38,11 @@ typedef struct wo_march_view {
                         summed apart as well */
 } wo_march_view;
 
-/* Red, green, blue, coverage; coverage over distance from the focus in dioptres: its share in the
-   whole is the harmonic mean of blur. */
-#define WO_PART_SUMS 5
+/* Red, green, blue; the coverage that each of them met; coverage over the distance from the focus
+   in dioptres, which gives the harmonic mean of blur. */
+#define WO_PART_COVERAGE 3
+#define WO_PART_BLUR     6
+#define WO_PART_SUMS     7
 
 /* Sums over a pencil, for the pixels of a vector. */
 typedef struct wo_march_sums {

@@ -51,7 +51,9 @@ WO_SIMD ptrdiff_t place(const wo_march_view *view, int32_t x, int32_t y, int run
 
 /* Colour of sheet s around the pixels at (dx, dy), at the fractions (tx, ty) beside their centres:
    Dodgson's quadratic interpolation (1997). Neighbours on another surface lend the pixel's own
-   colour; joined = there are none. */
+   colour; joined = there are none. Beside a change of coverage it overshoots 0..1: colour and
+   coverage do so together, which keeps every sum over the ray right; cut, one colour would not stay
+   one colour. */
 WO_SIMD void sample_smooth(const wo_march_view *view, int s, int32_t x, int32_t y, int run_index,
                            int dx, int dy, vf tx, vf ty, bool joined, vf out[4])
 {
@@ -88,9 +90,6 @@ WO_SIMD void sample_smooth(const wo_march_view *view, int s, int32_t x, int32_t 
     }
     for (int k = 0; k < 4; k++)
         out[k] = v_fma(own, v_load(view->c[s][k] + centre), out[k]);
-    /* Overshoot may not make coverage leave 0..1. */
-    out[3] = v_select(v_less(one, out[3]), one, out[3]);
-    out[3] = v_select(v_less(out[3], v_set(0)), v_set(0), out[3]);
 }
 
 typedef struct hit {
@@ -118,10 +117,13 @@ WO_SIMD void add_part(vf sum[WO_PART_SUMS], const vf scale[4], vm mask, vf light
                       const vf c[4])
 {
     light = v_mask(mask, light);
-    for (int k = 0; k < 4; k++)
-        sum[k] = v_fma(v_mul(light, scale[k]), c[k], sum[k]);
+    for (int k = 0; k < 3; k++) {
+        const vf part = v_mul(light, scale[k]);
+        sum[k] = v_fma(part, c[k], sum[k]);
+        sum[WO_PART_COVERAGE + k] = v_fma(part, c[3], sum[WO_PART_COVERAGE + k]);
+    }
     const vf stopped = v_mul(v_mul(light, scale[3]), c[3]);
-    sum[4] = v_add(sum[4], v_mask(mask, v_div(stopped, v_abs(v))));
+    sum[WO_PART_BLUR] = v_add(sum[WO_PART_BLUR], v_mask(mask, v_div(stopped, v_abs(v))));
 }
 
 /* light: what arrives at a surface at vergence v. p: NULL = parts are not wanted. */
@@ -552,7 +554,10 @@ WO_SIMD void march_all(const wo_march_view *view, int32_t x, int32_t y, int run_
             ends = m_or(ends, lost);
             t.r.guessed = v_add(t.r.guessed, v_mask(lost, left));
         }
-        const vf weight = v_select(ends, v_sub(one, left), one);
+        /* The same number twice where a ray ends: an opaque scene has a coverage of exactly 1. */
+        const vf stopped = v_sub(one, left);
+        t.r.c[3] = v_select(ends, stopped, t.r.c[3]);
+        const vf weight = v_select(ends, stopped, one);
         add_ray(pencil, n, t.r.c, weight, t.r.guessed, chunk);
         if (n % CHUNK == CHUNK - 1)
             add_chunk(total, chunk);
@@ -607,7 +612,11 @@ static void single(const wo_march_view *view, int32_t x, int32_t y, int run_inde
             for (int k = 0; k < 4; k++)
                 c[k] = v_load(view->c[0][k] + at);
         }
-        add_ray(pencil, n, c, v_set(1), view->guessed[0] ? c[3] : v_set(0), chunk);
+        const vf one = v_set(1);
+        const vf left = v_sub(one, c[3]);
+        const vm ends = v_less_equal(left, v_set(WO_LIGHT_MIN));
+        const vf weight = v_select(ends, c[3], one);
+        add_ray(pencil, n, c, weight, view->guessed[0] ? c[3] : v_set(0), chunk);
         if (n % CHUNK == CHUNK - 1)
             add_chunk(total, chunk);
     }

@@ -35,7 +35,6 @@ static void interpolate(const wo_march_view *view, int s, int32_t x, int32_t y, 
                 c[k] += wx[a] * wy[b] * (double)view->c[s][k][at];
         }
     }
-    c[3] = fmin(fmax(c[3], 0), 1);
 }
 
 /* Of one ray. */
@@ -48,9 +47,11 @@ typedef struct ray_sums {
 
 static void add_part(double sum[WO_PART_SUMS], double light, double v, const double c[4])
 {
-    for (int k = 0; k < 4; k++)
+    for (int k = 0; k < 3; k++) {
         sum[k] += light * c[k];
-    sum[4] += light * c[3] / fabs(v);
+        sum[WO_PART_COVERAGE + k] += light * c[3];
+    }
+    sum[WO_PART_BLUR] += light * c[3] / fabs(v);
 }
 
 static void trace(const wo_march_view *view, int32_t x, int32_t y, const wo_pencil *pencil, int n,
@@ -116,7 +117,7 @@ static void trace(const wo_march_view *view, int32_t x, int32_t y, const wo_penc
                 add_part(out->near, light, hits[h].v, c);
             if (hits[h].v < -(double)view->v_apart)
                 add_part(out->far, light, hits[h].v, c);
-            for (int k = 0; k < 4; k++)
+            for (int k = 0; k < 3; k++)
                 out->c[k] += light * c[k];
             out->guessed += view->guessed[s] ? light * c[3] : 0;
             light -= light * c[3];
@@ -126,6 +127,7 @@ static void trace(const wo_march_view *view, int32_t x, int32_t y, const wo_penc
     }
     const bool faint = light <= (double)WO_LIGHT_MIN;
     const bool lost = !faint && view->opaque[place_of(view, x, y, dx, dy)] > 0.5f;
+    out->c[3] = 1 - light;
     out->weight = faint || lost ? 1 - light : 1;
     out->guessed += lost ? light : 0;
 }
@@ -152,8 +154,8 @@ static void march(const wo_march_view *view, int32_t x, int32_t y, int run_index
                 weight[k] += w[k] * ray.weight;
             }
             for (int k = 0; k < WO_PART_SUMS; k++) {
-                near[k] += w[k < 3 ? k : 3] * ray.near[k];
-                far[k] += w[k < 3 ? k : 3] * ray.far[k];
+                near[k] += w[k < WO_PART_BLUR ? k % 3 : 3] * ray.near[k];
+                far[k] += w[k < WO_PART_BLUR ? k % 3 : 3] * ray.far[k];
             }
             guessed += w[3] * ray.guessed;
         }

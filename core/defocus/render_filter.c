@@ -18,6 +18,9 @@ enum { INNER = 2 };
 /* Circles of a side of the focus smaller than this part of the largest need taps of their own, more
    of them towards the middle. */
 #define ALIKE 0.6f
+/* A lens that leaves more than this in its best focus has no circle of confusion that one disc
+   could stand for: its tiles are given to the rays. px */
+#define REST_MAX 1.0f
 /* A tap beyond the tile's own reach would leave the stack: rounding and soft edges. px */
 enum { BEYOND = 2 };
 
@@ -26,6 +29,7 @@ enum { BEYOND = 2 };
 
 typedef struct filter_job {
     const wo_defocus *scene;
+    const wo_lens *lens; /* whose rays are the taps */
     wo_filter_scene filter;
     const wo_filter_kernels *kernels;
     const wo_frame *frame;
@@ -84,12 +88,18 @@ static void find_sides(tile_job *t)
     t->inner = fminf(t->sides[0].least, t->sides[1].least) < INNER_LAST;
 }
 
-/* px over the extent of the aperture towards (x, y). */
-static float in_extents(const wo_filter_shape *shape, float x, float y)
+/* A distance in px as filter.h wants it: over the extent of the aperture in its direction, but for
+   the first px, so that what is in focus reaches no neighbour, whatever the shape. */
+static float in_extents(float away, float outer)
+{
+    return away < 1 ? away : 1 + (away - 1) / outer;
+}
+
+static float offset_in_extents(const wo_filter_shape *shape, float x, float y)
 {
     if (x == 0 && y == 0)
         return 0;
-    return hypotf(x, y) / shape->outer[wo_filter_bin(x, y)];
+    return in_extents(hypotf(x, y), shape->outer[wo_filter_bin(x, y)]);
 }
 
 static bool is_inner(int x, int y)
@@ -105,8 +115,8 @@ static void inner_taps(const tile_job *t, wo_filter_taps *taps)
     taps->count = 0;
     for (int y = -INNER; y <= INNER; y++) {
         for (int x = -INNER; x <= INNER; x++) {
-            const float away = in_extents(shape, (float)x, (float)y);
-            const float back = in_extents(shape, (float)-x, (float)-y);
+            const float away = offset_in_extents(shape, (float)x, (float)y);
+            const float back = offset_in_extents(shape, (float)-x, (float)-y);
             if (!is_inner(x, y) || fminf(away, back) > most)
                 continue;
             const int i = taps->count++;
@@ -126,11 +136,13 @@ static void ray_taps(tile_job *t, int which, const wo_pencil *pencil)
     const wo_filter_shape *shape = t->shape;
     const side *s = &t->sides[which];
     wo_filter_taps *taps = &t->taps;
-    const float radius = wo_filter_reach(s->most) + 0.5f;
+    float reach;
+    float share;
+    wo_filter_disc(&t->job->filter.discs, s->most, 0, &reach, &share);
     const bool alike = s->least > ALIKE * s->most;
     const float sign = which == 0 ? 1.0f : -1.0f;
-    const float rays = (float)t->job->scene->lens->count * shape->lit;
-    const float area = 3.14159265f * radius * radius * (1 - shape->hole * shape->hole) / rays;
+    const float rays = (float)t->job->lens->count * shape->lit;
+    const float area = 3.14159265f * (1 - shape->hole * shape->hole) / rays;
     taps->count = 0;
     for (int n = 0; n < pencil->count; n++) {
         const float bx = pencil->bx[n];
@@ -146,7 +158,8 @@ static void ray_taps(tile_job *t, int which, const wo_pencil *pencil)
         const float rho = fminf(b / (shape->ppd * outer), 1);
         /* Drawn evenly over the area, or evenly along the radius. */
         const float at = alike ? rho : rho * rho;
-        const float away = at * radius * outer;
+        const float farthest = (reach - 0.5f) * outer + 1;
+        const float away = at * farthest;
         const int dx = (int)lrintf(sign * away * bx / b);
         const int dy = (int)lrintf(sign * away * by / b);
         if (t->inner && is_inner(dx, dy))
@@ -157,9 +170,11 @@ static void ray_taps(tile_job *t, int which, const wo_pencil *pencil)
         taps->dx[i] = dx;
         taps->dy[i] = dy;
         taps->away[i] = away;
-        taps->before[i] = which == 0 ? at * radius : INFINITY;
-        taps->behind[i] = which == 1 ? at * radius : INFINITY;
-        taps->area[i] = weight * area * (alike ? 1 : 2 * at);
+        const float extents = in_extents(away, outer);
+        taps->before[i] = which == 0 ? extents : INFINITY;
+        taps->behind[i] = which == 1 ? extents : INFINITY;
+        const float scale = farthest / outer;
+        taps->area[i] = weight * area * scale * scale * (alike ? 1 : 2 * at);
     }
 }
 
@@ -175,7 +190,6 @@ typedef struct picture {
    holds: it does not count. neighbours: sums without the taps. */
 static void compose(const wo_filter_sums *sums, const wo_filter_sums *neighbours, picture *out)
 {
-    const float per_area = sums->area > 0 ? 1 / sums->area : 0;
     for (int i = 0; i < WO_LANES; i++) {
         const float before = sums->c[WO_FILTER_BEFORE][3][i];
         const float own = sums->c[WO_FILTER_OWN][3][i];
@@ -185,7 +199,8 @@ static void compose(const wo_filter_sums *sums, const wo_filter_sums *neighbours
         const float a_own = own < expected ? own / expected : own > 0 ? 1.0f : 0.0f;
         const float w_before = before > 1 ? 1 / before : 1;
         const float w_own = own > 0 ? left * a_own / own : 0;
-        const float w_behind = behind > 0 ? left * (1 - a_own) / behind : 0;
+        const float all_behind = fmaxf(behind, sums->c[WO_FILTER_BEHIND][3][i]);
+        const float w_behind = all_behind > 0 ? left * (1 - a_own) / all_behind : 0;
         float sum[4];
         for (int k = 0; k < 4; k++)
             sum[k] = w_before * sums->c[WO_FILTER_BEFORE][k][i] +
@@ -198,8 +213,10 @@ static void compose(const wo_filter_sums *sums, const wo_filter_sums *neighbours
                               w_own * sums->guessed[WO_FILTER_OWN][i] +
                               w_behind * sums->guessed[WO_FILTER_BEHIND][i];
         const float all = sum[3] < 1 ? sum[3] : 1;
-        const float open = sums->open[i] * per_area;
-        const float norm = all + (1 - all) * open;
+        const float lost = sums->own_open[i] ? 1 : sums->open[i] * sums->own_share[i];
+        const float open = lost < 1 - all ? lost : 1 - all;
+        /* What is more than all light takes the colours along with it. */
+        const float norm = sum[3] < 1 ? sum[3] + open : sum[3];
         const float scale = norm > LEAST_LIGHT ? 1 / norm : 0;
         for (int k = 0; k < 3; k++)
             out->c[k][i] = sum[k] * scale;
@@ -224,7 +241,7 @@ static bool gather_vector(tile_job *t, int32_t row, int run_index, unsigned set,
                           wo_report *part)
 {
     const filter_job *job = t->job;
-    const wo_lens *lens = job->scene->lens;
+    const wo_lens *lens = job->lens;
     const wo_rect area = job->filter.area;
     const int32_t x = t->rect.x1 - area.x1;
     const int32_t y = t->rect.y1 + row - area.y1;
@@ -285,17 +302,22 @@ static bool gather_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_
     const wo_defocus *scene = job->scene;
     const wo_ray_tile *tile = wo_lens_rays_at(scene->rays, tx, ty);
     memset(facts, 0, sizeof *facts);
-    if (tile->class == WO_TILE_EMPTY || wo_ray_tile_straight(tile)) {
-        for (int i = 0; wo_ray_tile_straight(tile) && i < WO_TILE_WIDTH * WO_TILE_HEIGHT; i++)
-            facts->rays[i / WO_TILE_WIDTH][i % WO_TILE_WIDTH] = 1;
+    const bool plain = tile->class == WO_TILE_EMPTY || wo_ray_tile_straight(tile);
+    const wo_filter_shape *shape =
+        plain ? NULL : wo_filter_shape_at(&job->filter, tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT);
+    if (plain || shape->rest > REST_MAX) {
+        const float rays = tile->class == WO_TILE_EMPTY ? 0
+                           : wo_ray_tile_straight(tile) ? 1
+                                                        : (float)scene->lens->count;
+        for (int i = 0; i < WO_TILE_WIDTH * WO_TILE_HEIGHT; i++)
+            facts->rays[i / WO_TILE_WIDTH][i % WO_TILE_WIDTH] = rays;
         return wo_lens_rays_tile(scene->rays, scene->context, tx, ty, pixels, part);
     }
     memset(pixels, 0, sizeof *pixels);
     part->tiles[tile->class]++;
-    tile_job t = {.job = job, .tile = tile, .limit = reach_of(tile)};
+    tile_job t = {.job = job, .tile = tile, .shape = shape, .limit = reach_of(tile)};
     t.rect = (wo_rect){tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT, (tx + 1) * WO_TILE_WIDTH,
                        (ty + 1) * WO_TILE_HEIGHT};
-    t.shape = wo_filter_shape_at(&job->filter, t.rect.x1, t.rect.y1);
     t.view = wo_filter_view_of(&job->filter, wo_rect_grow(t.rect, t.limit, t.limit));
     t.view.hole = t.shape->hole;
     find_sides(&t);
@@ -308,7 +330,7 @@ static bool gather_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_
             if (unwanted(&job->raw.window, &t.rect, row, run_index))
                 continue;
             const uint32_t set = wo_hash(where) + 0x3c6ef372u * (uint32_t)run_index;
-            if (!gather_vector(&t, row, run_index, wo_hash(set) % scene->lens->sets, &inner, pixels,
+            if (!gather_vector(&t, row, run_index, wo_hash(set) % job->lens->sets, &inner, pixels,
                                facts, part))
                 return false;
         }
@@ -438,15 +460,30 @@ static wo_status make_raw(filter_job *job, wo_error *error)
     return WO_OK;
 }
 
+/* No error is estimated, so adaptive sampling has no meaning: as many taps as there are samples, or
+   the next smaller lattice. */
+static const wo_lens *lens_of(const wo_defocus *scene)
+{
+    if (!scene->quality.adaptive || scene->level_count == 0)
+        return scene->lens;
+    const wo_lens *lens = &scene->levels[0];
+    for (int i = 1; i < scene->level_count; i++)
+        if (scene->levels[i].count <= scene->quality.samples)
+            lens = &scene->levels[i];
+    return lens;
+}
+
 static wo_status render(const wo_defocus *scene, const wo_frame *frame, wo_report *report,
                         wo_error *error)
 {
     const wo_context *context = scene->context;
-    filter_job job = {
-        .scene = scene, .frame = frame, .kernels = wo_filter_choose(wo_cpu_detect(context->cpu))};
+    filter_job job = {.scene = scene,
+                      .lens = lens_of(scene),
+                      .frame = frame,
+                      .kernels = wo_filter_choose(wo_cpu_detect(context->cpu))};
     wo_status status = make_raw(&job, error);
     if (status == WO_OK)
-        status = wo_filter_scene_create(context, scene->stack, scene->lens, seen_area(&job),
+        status = wo_filter_scene_create(context, scene->stack, job.lens, seen_area(&job),
                                         &job.filter, error);
     if (status == WO_OK)
         status = wo_frame_tiles(scene, &job.raw, 0, 0.9, gather_tile, &job, report, error);

@@ -5,11 +5,30 @@
 #include <math.h>
 #include <stdatomic.h>
 
-/* Tiles of the frame and of its margin, as far as the picture goes. */
+/* Tiles of the frame and of its margin, as far as the picture goes, or the format if the frame lies
+   inside it. */
 static wo_rect tiles_of(const wo_defocus *scene, const wo_frame *frame)
 {
-    const wo_rect r = wo_rect_grow(frame->window, WO_HYBRID_MARGIN, WO_HYBRID_MARGIN);
-    return wo_tiles_of(wo_rect_intersect(r, scene->extent));
+    const wo_rect r = wo_rect_intersect(
+        wo_rect_grow(frame->window, WO_HYBRID_MARGIN, WO_HYBRID_MARGIN), scene->extent);
+    const wo_rect format = wo_tiles_of(scene->format);
+    const wo_rect all = wo_tiles_of(r);
+    return wo_rect_contains(format, frame->tiles) ? wo_rect_intersect(all, format) : all;
+}
+
+static wo_rect inner_of(const wo_hybrid *h)
+{
+    const wo_rect t = wo_rect_intersect(wo_tiles_of(h->scene->format), h->tiles);
+    enum { ACROSS = WO_TILE_WIDTH / WO_HYBRID_CELL, DOWN = WO_TILE_HEIGHT / WO_HYBRID_CELL };
+    return (wo_rect){(t.x1 - h->tiles.x1) * ACROSS, (t.y1 - h->tiles.y1) * DOWN,
+                     (t.x2 - h->tiles.x1) * ACROSS, (t.y2 - h->tiles.y1) * DOWN};
+}
+
+/* Coverage is the same for all colours if the lens does not part them. */
+static bool is_shared(const wo_defocus *scene, int plane)
+{
+    const int part = plane < WO_HYBRID_REST ? plane % WO_PART_SUMS : 0;
+    return !scene->lens->colours && part > WO_PART_COVERAGE && part < WO_PART_BLUR;
 }
 
 static wo_status create(const wo_defocus *scene, const wo_frame *frame, wo_hybrid *h,
@@ -22,15 +41,22 @@ static wo_status create(const wo_defocus *scene, const wo_frame *frame, wo_hybri
     h->width = wo_rect_width(h->area);
     h->columns = wo_rect_width(h->area) / WO_HYBRID_CELL;
     h->rows = wo_rect_height(h->area) / WO_HYBRID_CELL;
+    h->inner = inner_of(h);
     const size_t pixels = (size_t)h->width * (size_t)wo_rect_height(h->area);
     const size_t tiles = (size_t)wo_rect_width(h->tiles) * (size_t)wo_rect_height(h->tiles);
-    if (!(h->memory = wo_new_large(context, error, pixels, WO_HYBRID_PLANES * sizeof(float))) ||
+    size_t planes = 0;
+    for (int k = 0; k < WO_HYBRID_PLANES; k++)
+        planes += !is_shared(scene, k);
+    if (!(h->memory = wo_new_large(context, error, pixels, planes * sizeof(float))) ||
         !(h->rays = wo_new(context, error, tiles, sizeof *h->rays)) ||
         !(h->cells =
               wo_new(context, error, (size_t)h->columns * (size_t)h->rows, sizeof *h->cells)))
         return WO_ERR_NOMEM;
-    for (size_t k = 0; k < WO_HYBRID_PLANES; k++)
-        h->plane[k] = h->memory + k * pixels;
+    float *next = h->memory;
+    for (int k = 0; k < WO_HYBRID_PLANES; k++) {
+        h->plane[k] = is_shared(scene, k) ? h->plane[k - 1] : next;
+        next += is_shared(scene, k) ? 0 : pixels;
+    }
     wo_hybrid_kernels(h->kernels);
     return WO_OK;
 }

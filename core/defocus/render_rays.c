@@ -74,7 +74,8 @@ static bool rays_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_ti
     wo_tile_sums sums;
     noise_map map;
     memset(pixels, 0, sizeof *pixels);
-    memset(facts, 0, sizeof *facts);
+    memset(facts->rays, 0, sizeof facts->rays);
+    memset(facts->error, 0, sizeof facts->error);
     wo_tile_work_begin(scene->rays, scene->context, tx, ty, INFINITY, &work);
     part->tiles[work.tile->class]++;
     if (work.tile->class == WO_TILE_EMPTY)
@@ -87,7 +88,7 @@ static bool rays_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_ti
             for (int i = 0; i < WO_LANES; i++) {
                 const int x = run_index + WO_PHASES * i;
                 wo_tile_work_pixel(&work, &all, row, run_index, i, pixels->c[row][x]);
-                pixels->guessed[row][x] = all.guessed[i] / (float)sums.scale;
+                pixels->guessed[row][x] = fminf(fmaxf(all.guessed[i] / (float)sums.scale, 0), 1);
                 facts->rays[row][x] = (float)sums.rays;
             }
         }

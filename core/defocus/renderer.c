@@ -54,6 +54,8 @@ static void put_tile(const wo_frame *frame, int32_t tx, int32_t ty, const wo_til
         memcpy(frame->guessed + at, pixels->guessed[row] + x, n * sizeof(float));
         if (frame->rays)
             memcpy(frame->rays + at, facts->rays[row] + x, n * sizeof(float));
+        if (frame->mask)
+            memcpy(frame->mask + at, facts->mask[row] + x, n * sizeof(float));
         if (frame->error)
             memcpy(frame->error + at, facts->error[row] + x, n * sizeof(float));
     }
@@ -71,6 +73,10 @@ static void run_tile(void *user, size_t index, unsigned worker)
     if (!frame->skip || !frame->skip[index]) {
         wo_tile_pixels pixels;
         wo_tile_facts facts;
+        const wo_ray_tile *tile = wo_lens_rays_at(job->scene->rays, tx, ty);
+        const float mask = tile->class == WO_TILE_EMPTY || wo_ray_tile_straight(tile) ? 0 : 1;
+        for (int32_t i = 0; i < WO_TILE_HEIGHT * WO_TILE_WIDTH; i++)
+            facts.mask[i / WO_TILE_WIDTH][i % WO_TILE_WIDTH] = mask;
         if (!job->function(job->user, tx, ty, worker, &pixels, &facts, &job->parts[worker])) {
             atomic_store(&job->stop, true);
             return;

@@ -27,6 +27,7 @@ typedef struct wo_defocus {
     const wo_highlights *highlights;
     const wo_lens_rays *rays; /* the class of every tile; renders one with all rays */
     wo_rect extent;           /* where the picture has pixels */
+    wo_rect format;           /* the frame the camera saw */
     wo_quality quality;
 } wo_defocus;
 
@@ -38,6 +39,7 @@ typedef struct wo_frame {
     float (*c)[4];       /* premultiplied */
     float *guessed;      /* fraction of the light that came from invented surfaces */
     float *rays;         /* lens rays spent on the pixel; NULL = not wanted */
+    float *mask;         /* how much of the pixel rays alone decide, 0..1; NULL = not wanted */
     float *error;        /* estimated standard error of the displayed value, the mean of the squares
                             of the three colours; NAN = not known; NULL = not wanted */
 } wo_frame;
@@ -58,6 +60,7 @@ typedef struct wo_renderer {
     X(WO_METHOD_RAYS, wo_render_rays)                                                              \
     X(WO_METHOD_FILTER, wo_render_filter)                                                          \
     X(WO_METHOD_SPREAD, wo_render_spread)                                                          \
+    X(WO_METHOD_ACCUMULATE, wo_render_accumulate)                                                  \
     X(WO_METHOD_REFERENCE, wo_render_reference)
 
 typedef enum wo_method {
@@ -76,6 +79,7 @@ const wo_renderer *wo_renderer_of(wo_method method);
 /* What a tile function fills besides its pixels. */
 typedef struct wo_tile_facts {
     float rays[WO_TILE_HEIGHT][WO_TILE_WIDTH];
+    float mask[WO_TILE_HEIGHT][WO_TILE_WIDTH]; /* at first 1, or 0 in tiles without blur */
     float error[WO_TILE_HEIGHT][WO_TILE_WIDTH];
 } wo_tile_facts;
 

@@ -71,14 +71,32 @@ double wo_read_vergence(const wo_sheet_source *source, int32_t x, int32_t y, boo
 /* px that wo_sheet_load looks beyond a pixel. */
 #define WO_SHEET_LOAD_MARGIN 2
 
-/* Splits pixels that mix two surfaces (antialiased colour over unfiltered depth) into the part that
-   belongs to their own depth, which stays, and the part of the neighbouring surface, which goes
-   into edges, where that pixel is still free. Only steps of vergence that make a visible difference
-   of blur count (px_per_dioptre). edges must have the sheet's area and start as all NaN; *split is
-   added to. */
+/* Repairs antialiased depth: a pixel whose depth lies on a step between two surfaces, where it
+   mixes both and belongs to neither, gets the vergence of the one that has the larger part in it.
+   The surfaces are the nearest pixels on either side, at most 4 px away, from where depth goes on
+   flat or turns round: slopes and blocks of 2 x 2 px of one depth stay as they are; of a ball,
+   the last px before its outline may go flat. Beside the border of the picture, where the other
+   side of a step may be outside, steep steps stay, too. Depth mixes in the unit it is given in,
+   whatever that is, also with a background at 1e10. Only a visible difference of blur counts
+   (px_per_dioptre). source->depth must be connected. mix, as large as the sheet, becomes the part
+   of the nearer surface in each repaired pixel's depth and NaN elsewhere; *repaired is added to,
+   for pixels of counted. */
+WO_NODISCARD wo_status wo_sheet_repair_depth(const wo_context *context,
+                                             const wo_sheet_source *source, double px_per_dioptre,
+                                             wo_rect counted, wo_sheet *sheet, float *mix,
+                                             int64_t *repaired, wo_error *error);
+/* px that the repair looks beyond a pixel. */
+#define WO_SHEET_REPAIR_MARGIN 22
+
+/* Splits pixels that mix two surfaces (antialiased colour over unfiltered or repaired depth) into
+   the part that belongs to their own depth, which stays, and the part of the neighbouring surface,
+   which goes into edges, where that pixel is still free. Only steps of vergence that make a visible
+   difference of blur count (px_per_dioptre). The parts are those that explain the colour; where the
+   two surfaces have much the same colour, those of mix (of wo_sheet_repair_depth; NULL = unknown).
+   edges must have the sheet's area and start as all NaN; *split is added to. */
 WO_NODISCARD wo_status wo_sheet_split_edges(const wo_context *context, double px_per_dioptre,
-                                            wo_sheet *sheet, wo_sheet *edges, int64_t *split,
-                                            wo_error *error);
+                                            const float *mix, wo_sheet *sheet, wo_sheet *edges,
+                                            int64_t *split, wo_error *error);
 #define WO_SHEET_SPLIT_MARGIN 3
 
 /* Invents what lies behind the farthest surfaces of the sheets: wherever a farther surface ends at
@@ -87,6 +105,19 @@ WO_NODISCARD wo_status wo_sheet_split_edges(const wo_context *context, double px
 WO_NODISCARD wo_status wo_sheet_fill_hidden(const wo_context *context, const wo_sheet *sheets,
                                             size_t count, double px_per_dioptre, int levels,
                                             wo_sheet *hidden, wo_error *error);
+
+/* Leaves of a clean plate only what is behind the count layers, which have its area: where a
+   surface is nearer by a visible difference of blur, and none that covers the pixel is at the
+   plate's own depth or farther. Elsewhere the scene itself shows it, or shows nothing. What edges
+   (of wo_sheet_split_edges) took from the pixels around for the same place goes. */
+void wo_sheet_keep_hidden(const wo_context *context, const wo_sheet *layers, size_t count,
+                          double px_per_dioptre, wo_sheet *edges, wo_sheet *plate);
+
+/* A clean plate without depth takes that of the continued surfaces (hidden, of
+   wo_sheet_fill_hidden, and edges), and their place: what they hold where the plate has nothing
+   stays. */
+void wo_sheet_lend_depth(const wo_context *context, const wo_sheet *layers, size_t count,
+                         double px_per_dioptre, wo_sheet *edges, wo_sheet *hidden, wo_sheet *plate);
 
 /* px that the fill with so many levels looks beyond a pixel; and the grid it wants areas on. */
 int32_t wo_sheet_fill_margin(int levels);

@@ -11,10 +11,13 @@
 #define MIX_MIN 0.004
 /* How far from the line between the two pure colours a mixture may lie, relative to its length. */
 #define RESIDUAL_MAX 0.5
+/* Squared distance of two colours from which on colour says more about a mixture than depth. */
+#define DEPTH_TRUST 0.01
 
 typedef struct split_job {
     wo_sheet *sheet;
     wo_sheet *edges;
+    const float *mix;
     float (*colour)[4]; /* the sheet's colours before any split */
     uint8_t *edge;      /* 1 = a neighbour in 3 x 3 is another surface */
     int64_t *rows;
@@ -99,8 +102,9 @@ static bool pure_colours(const split_job *job, int32_t x, int32_t y, float other
     return true;
 }
 
-/* Fraction of the other surface in a mixed colour; 0 when it is no such mixture. */
-static double mixture(const float c[4], const double own[4], const double other[4])
+/* Fraction of the other surface in a mixed colour; 0 when it is no such mixture. expected: what the
+   depth says, NaN = nothing. */
+static double mixture(const float c[4], const double own[4], const double other[4], double expected)
 {
     double along = 0;
     double length = 0;
@@ -111,8 +115,10 @@ static double mixture(const float c[4], const double own[4], const double other[
         length += d * d;
     }
     if (!(length > 1e-6))
-        return 0;
-    const double f = fmin(fmax(along / length, 0), 1);
+        return isnan(expected) ? 0 : expected;
+    const double trust = isnan(expected) ? 0 : DEPTH_TRUST;
+    const double f =
+        fmin(fmax((along + (trust > 0 ? trust * expected : 0)) / (length + trust), 0), 1);
     for (int k = 0; k < 4; k++) {
         const double r = c[k] - own[k] - f * (other[k] - own[k]);
         off += r * r;
@@ -129,7 +135,7 @@ static void split_pixel(split_job *job, size_t at, float other_v, double f, cons
     const bool other_in_front = other_v > job->sheet->v[at];
     job->edges->v[at] = other_v;
     for (int k = 0; k < 4; k++) {
-        const double rest = fmax(c[k] - f * other[k], 0);
+        const double rest = fmax(c[k] - f * other[k], fmin((1 - f) * own[k], 0));
         if (!other_in_front) {
             back[k] = (float)rest;
             front[k] = (float)other[k];
@@ -157,7 +163,9 @@ static void split_row(void *user, size_t index, unsigned worker)
         const float other_v = other_surface(job, x, (int32_t)index);
         if (!pure_colours(job, x, (int32_t)index, other_v, own, other))
             continue;
-        const double f = mixture(job->colour[at], own, other);
+        const double near_part = job->mix ? job->mix[at] : NAN;
+        const double expected = other_v > job->sheet->v[at] ? near_part : 1 - near_part;
+        const double f = mixture(job->colour[at], own, other, expected);
         if (f < MIX_MIN)
             continue;
         split_pixel(job, at, other_v, f, own, other);
@@ -165,10 +173,11 @@ static void split_row(void *user, size_t index, unsigned worker)
     }
 }
 
-wo_status wo_sheet_split_edges(const wo_context *context, double px_per_dioptre, wo_sheet *sheet,
-                               wo_sheet *edges, int64_t *split, wo_error *error)
+wo_status wo_sheet_split_edges(const wo_context *context, double px_per_dioptre, const float *mix,
+                               wo_sheet *sheet, wo_sheet *edges, int64_t *split, wo_error *error)
 {
     split_job job = {.sheet = sheet,
+                     .mix = mix,
                      .edges = edges,
                      .step = STEP_PX / px_per_dioptre,
                      .w = wo_rect_width(sheet->area),

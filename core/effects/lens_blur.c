@@ -16,8 +16,8 @@ enum { FILL_LEVELS_MAX = 9 };
 /* Of a star without blades. */
 enum { WO_STAR_POINTS = 5 };
 
-/* px that loading, splitting and seeding look beyond a pixel, one after the other. */
-#define INPUT_MARGIN (WO_SHEET_LOAD_MARGIN + WO_SHEET_SPLIT_MARGIN + 1)
+/* px that loading, repair, splitting and seeding look beyond a pixel, one after the other. */
+#define INPUT_MARGIN (WO_SHEET_LOAD_MARGIN + WO_SHEET_REPAIR_MARGIN + WO_SHEET_SPLIT_MARGIN + 1)
 
 bool wo_lens_blur_has_table(const wo_lens_blur_params *p)
 {
@@ -63,6 +63,7 @@ wo_status wo_lens_blur_prepare(const wo_lens_blur_params *wanted, const wo_geome
         setup->has_depth |=
             setup->layer_used[i] && params->use_depth && geometry->connected[2 * i + 1];
     }
+    setup->background_used = setup->has_depth && geometry->connected[WO_CLIP_BACKGROUND];
     setup->mask_used = params->use_mask && geometry->connected[WO_CLIP_MASK];
     setup->focus_map = params->focus_clip != WO_FOCUS_MAP_OFF && geometry->connected[WO_CLIP_FOCUS];
 
@@ -115,7 +116,7 @@ wo_lens_blur_areas wo_lens_blur_plan_areas(const wo_lens_blur_setup *setup,
     if (wo_rect_empty(window))
         return areas;
     const double reach = setup->reach * setup->tilt * fmax(1, geometry->pixel_stretch);
-    const int32_t margin = (int32_t)ceil(reach) + WO_RAYS_MARGIN;
+    const int32_t margin = (int32_t)ceil(reach) + WO_STACK_MARGIN;
     const wo_rect tiles =
         on_grid(wo_rect_grow(window, setup->margin, setup->margin), WO_TILE_WIDTH, WO_TILE_HEIGHT);
     areas.stack = wo_stack_grid(wo_rect_grow(tiles, margin, margin));
@@ -147,7 +148,8 @@ static wo_status region(const void *params, const wo_geometry *geometry, wo_rect
             *needed = wo_lens_blur_plan_areas(&setup, geometry, window).layers;
         return WO_OK;
     }
-    if (clip < WO_CLIP_MASK && setup.layer_used[clip / 2]) {
+    const bool plate = clip == WO_CLIP_BACKGROUND || clip == WO_CLIP_BACKGROUND_DEPTH;
+    if (plate ? setup.background_used : clip < WO_CLIP_MASK && setup.layer_used[clip / 2]) {
         const wo_rect points = wo_lens_blur_focus_area(params, geometry, setup.focus_map);
         *needed = wo_lens_blur_plan_areas(&setup, geometry, window).layers;
         if (!wo_rect_empty(points) && !wo_rect_empty(*needed))

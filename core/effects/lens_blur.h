@@ -16,6 +16,9 @@ typedef enum wo_lens_blur_output {
     WO_OUTPUT_ERROR,
     WO_OUTPUT_GUESSED,
     WO_OUTPUT_FOCUS,
+    WO_OUTPUT_SPLIT,
+    WO_OUTPUT_MASK,
+    WO_OUTPUT_APERTURE,
     WO_OUTPUT_COUNT
 } wo_lens_blur_output;
 
@@ -55,6 +58,7 @@ typedef struct wo_lens_blur_params {
     double depth_far;
     int32_t depth_channel;
     int32_t layers;
+    int32_t edge_repair;
     int32_t use_mask;
     int32_t blades;
     double curvature;
@@ -90,7 +94,13 @@ typedef struct wo_lens_blur_params {
     int32_t output;
 } wo_lens_blur_params;
 
-enum { WO_LENS_BLUR_PARAMS = 59 + 4 * WO_FOCUS_POINTS, WO_LENS_BLUR_GROUPS = 7 };
+enum { WO_LENS_BLUR_PARAMS = 60 + 4 * WO_FOCUS_POINTS, WO_LENS_BLUR_GROUPS = 7 };
+typedef enum wo_edge_repair {
+    WO_EDGES_AS_THEY_ARE,
+    WO_EDGES_OF_COLOUR,
+    WO_EDGES_OF_COLOUR_AND_DEPTH,
+    WO_EDGE_REPAIR_COUNT
+} wo_edge_repair;
 typedef enum wo_sampling { WO_SAMPLING_FIXED, WO_SAMPLING_ADAPTIVE, WO_SAMPLING_COUNT } wo_sampling;
 
 extern const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS];
@@ -104,6 +114,8 @@ enum {
     WO_CLIP_DEPTH = 1,
     WO_CLIP_MASK = 2 * WO_LENS_BLUR_LAYERS,
     WO_CLIP_FOCUS,
+    WO_CLIP_BACKGROUND, /* what Source hides, as a picture of its own: a clean plate */
+    WO_CLIP_BACKGROUND_DEPTH,
     WO_LENS_BLUR_CLIPS
 };
 extern const wo_clip wo_lens_blur_clips[WO_LENS_BLUR_CLIPS];
@@ -117,6 +129,7 @@ typedef struct wo_lens_blur_setup {
     int layers; /* that take part */
     bool layer_used[WO_LENS_BLUR_LAYERS];
     bool mask_used;
+    bool background_used;
     bool focus_map; /* the Focus clip says where the focus is */
     double radius;  /* largest circle of confusion that is drawn, px */
     double reach;   /* px: no ray of the lens goes farther, aberrations included */

@@ -163,9 +163,22 @@ static void tilt_lens(wo_plan *plan)
             100 * (1 - plan->focus.tilt_slope / plan->focus.tilt_asked), "% of the slope");
 }
 
+static void survey_aperture(wo_plan *plan)
+{
+    enum { POINTS = 256 };
+    wo_aperture_make(&plan->setup.aperture, &plan->aperture);
+    double most = 0;
+    for (int i = 0; i < POINTS * POINTS; i++)
+        most = fmax(most, wo_aperture_density(&plan->aperture, 2 * (i % POINTS + 0.5) / POINTS - 1,
+                                              2 * (i / POINTS + 0.5) / POINTS - 1));
+    plan->aperture_scale = most > 0 ? 1 / most : 0;
+}
+
 wo_status wo_lens_blur_lens_make(wo_plan *plan, wo_error *error)
 {
     WO_TRY(make_lens(plan, error));
+    if (plan->params.output == WO_OUTPUT_APERTURE)
+        survey_aperture(plan);
     tilt_lens(plan);
     plan->lens = plan->level[plan->levels - 1];
     return WO_OK;

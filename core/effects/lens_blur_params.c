@@ -24,18 +24,22 @@ const wo_param_group wo_lens_blur_groups[WO_LENS_BLUR_GROUPS] = {
 static const char *const depth_modes[] = {WO_DEPTH_MODE_LIST(DEPTH_KEY) NULL};
 static const char *const depth_mode_labels[] = {WO_DEPTH_MODE_LIST(DEPTH_LABEL) NULL};
 static const char *const channels[] = {"red", "green", "blue", "alpha", NULL};
-static const char *const channel_labels[] = {"Red or single channel", "Green", "Blue", "Alpha",
-                                             NULL};
+static const char *const channel_labels[] = {"Red", "Green", "Blue", "Alpha", NULL};
 static const char *const forms[] = {"iris", "star", "heart", NULL};
 static const char *const form_labels[] = {"Iris", "Star", "Heart", NULL};
-static const char *const outputs[] = {"image", "coc",     "depth",      "rays",
-                                      "error", "guessed", "focusPlane", NULL};
-static const char *const output_labels[] = {
-    "Image", "Circle of confusion", "Depth", "Rays", "Error", "Guessed", "Focus plane", NULL};
+static const char *const outputs[] = {"image",   "coc",      "depth",      "rays",
+                                      "error",   "guessed",  "focusPlane", "split",
+                                      "rayMask", "aperture", NULL};
+static const char *const output_labels[] = {"Image",    "CoC",      "Depth",       "Rays",
+                                            "Error",    "Guessed",  "Focus plane", "Split",
+                                            "Ray mask", "Aperture", NULL};
+static const char *const repairs[] = {"off", "colour", "all", NULL};
+static const char *const repair_labels[] = {"Off", "Colour", "All", NULL};
 
-static const char *const methods[] = {"hybrid", "rays", "filter", "spread", "reference", NULL};
-static const char *const method_labels[] = {"Hybrid", "Rays",      "Filter",
-                                            "Spread", "Reference", NULL};
+static const char *const methods[] = {"hybrid",     "rays",      "filter", "spread",
+                                      "accumulate", "reference", NULL};
+static const char *const method_labels[] = {"Hybrid",     "Rays",      "Filter", "Spread",
+                                            "Accumulate", "Reference", NULL};
 static const char *const samplings[] = {"fixed", "adaptive", NULL};
 static const char *const sampling_labels[] = {"Fixed", "Adaptive", NULL};
 
@@ -159,8 +163,10 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .label = "Depth is",
      .unit = "",
      .group = "depth",
-     .help = "What the numbers of the Depth clips mean. Zero, negative and non-finite distances "
-             "are infinitely far.",
+     .help =
+         "What the numbers of the Depth clips mean. Distance: along the axis. Inverse: one over "
+         "it. Ray: distance from the camera. Normalised: 0 is Near, 1 is Far. Zero, negative "
+         "and non-finite distances are infinitely far.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(depth_mode),
      .initial = {WO_DEPTH_DISTANCE},
@@ -215,7 +221,7 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .unit = "",
      .group = "depth",
      .help = "Channel of the Depth clips that holds the depth. Clips with fewer channels give "
-             "their last one.",
+             "their last one: Red suits those of one.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(depth_channel),
      .initial = {0},
@@ -238,6 +244,24 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .max = WO_LENS_BLUR_LAYERS,
      .ui_min = 1,
      .ui_max = WO_LENS_BLUR_LAYERS},
+    {.key = "edgeRepair",
+     .label = "Edge repair",
+     .unit = "",
+     .group = "depth",
+     .help =
+         "Pixels at edges that mix two surfaces are split into a front and a back part before "
+         "they are blurred. Colour: antialiased colour, by the colours around. All: antialiased "
+         "depth, too; pixels whose depth is a mixture get back the depth of a surface, and "
+         "depth that was not antialiased stays what it is. Off: every pixel is one surface.",
+     .type = WO_PARAM_CHOICE,
+     .offset = FIELD(edge_repair),
+     .initial = {WO_EDGES_OF_COLOUR_AND_DEPTH},
+     .min = 0,
+     .max = WO_EDGE_REPAIR_COUNT - 1,
+     .ui_min = 0,
+     .ui_max = WO_EDGE_REPAIR_COUNT - 1,
+     .choices = repairs,
+     .choice_labels = repair_labels},
     {.key = "useMask",
      .label = "Use mask",
      .unit = "",
@@ -261,7 +285,8 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
          "much as its own blur allows: the best picture for the time. Rays: lens rays alone. "
          "Filter: every pixel gathers what blurs over it; the fastest, for previews. Spread: "
          "every pixel's light is spread over its circle of confusion, distance by distance: no "
-         "noise; Samples sets how finely distances are told apart. Reference: rays by brute "
+         "noise; Samples sets how finely distances are told apart. Accumulate: whole pictures, "
+         "each seen from one point of the lens: no noise, but ghosts. Reference: rays by brute "
          "force, some 25 times slower, for checking.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(method),
@@ -360,8 +385,11 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .help =
          "The image, or a view of the plan: the radius of the circle of confusion in px "
          "(positive in front of the focus, negative behind), the depth in metres, the lens rays "
-         "of each pixel, its estimated error, how much of its light was guessed, or "
-         "what is in front of the focus (blue), in it to half a px (green) and behind it (red).",
+         "of each pixel, its estimated error, how much of its light was guessed, "
+         "what is in front of the focus (blue), in it to half a px (green) and behind it (red), or "
+         "the pixels that edge repair split in two (1) or whose depth alone it mended (0.5), what "
+         "is "
+         "left to rays where the method smooths the rest, or the aperture.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(output),
      .initial = {WO_OUTPUT_IMAGE},
@@ -386,7 +414,8 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
 
 const wo_clip wo_lens_blur_clips[WO_LENS_BLUR_CLIPS] = {
     COLOUR("Source", "Source", "The picture, seen through a pinhole.", false),
-    DEPTH("Depth", "Depth", "Depth of Source at pixel centres, not antialiased."),
+    DEPTH("Depth", "Depth",
+          "Depth of Source. Best at pixel centres; antialiased depth is repaired."),
     COLOUR("Layer2", "Layer 2", "What Source hides: a second depth peel, or another object group.",
            true),
     DEPTH("Depth2", "Depth 2", "Depth of Layer 2."),
@@ -403,4 +432,11 @@ const wo_clip wo_lens_blur_clips[WO_LENS_BLUR_CLIPS] = {
     DEPTH("Focus", "Focus",
           "Where the focus is, pixel by pixel, or how large the blur; see Focus clip is. The first "
           "channel counts."),
+    COLOUR("Background", "Background",
+           "Clean plate: the picture without what stands in front. It is seen where a blurred "
+           "foreground lets through what Source hides, behind all layers, and is no guess.",
+           true),
+    DEPTH("BackgroundDepth", "Background depth",
+          "Depth of Background. Without it the plate takes the depth of the far surfaces around "
+          "whatever hides it."),
 };

@@ -14,8 +14,8 @@ double wo_seconds(void)
     return timespec_get(&now, TIME_UTC) ? (double)now.tv_sec + 1e-9 * (double)now.tv_nsec : 0;
 }
 
-/* Layers, then split edges, then what is hidden. */
-enum { EDGES = WO_LENS_BLUR_LAYERS, HIDDEN, SHEETS };
+/* Layers, then the clean plate, split edges, what is hidden. */
+enum { BACKGROUND = WO_LENS_BLUR_LAYERS, EDGES, HIDDEN, SHEETS };
 
 /* Between the steps of planning: does the caller still want the picture? */
 static wo_status go_on(const wo_context *context, wo_error *error)
@@ -46,14 +46,15 @@ static wo_status empty_sheet(const wo_context *context, wo_rect area, wo_sheet *
     return WO_OK;
 }
 
-wo_sheet_source wo_lens_blur_layer(const wo_plan *plan, const wo_plan_args *args, int i)
+wo_sheet_source wo_lens_blur_layer(const wo_plan *plan, const wo_plan_args *args, int layer)
 {
     const wo_lens_blur_setup *setup = &plan->setup;
+    const int clip = layer == BACKGROUND ? WO_CLIP_BACKGROUND : 2 * layer;
     return (wo_sheet_source){
-        .colour = &args->inputs[2 * i],
-        .depth = plan->params.use_depth ? &args->inputs[2 * i + 1] : NULL,
+        .colour = &args->inputs[clip],
+        .depth = plan->params.use_depth ? &args->inputs[clip + 1] : NULL,
         .depth_channel = plan->params.depth_channel,
-        .alpha = args->alpha[2 * i],
+        .alpha = args->alpha[clip],
         .reading = setup->reading,
         .extent = plan->geometry.extent,
         .format = plan->geometry.format,
@@ -69,11 +70,14 @@ wo_sheet_source wo_lens_blur_layer(const wo_plan *plan, const wo_plan_args *args
 static wo_status load_layers(const wo_plan *plan, const wo_plan_args *args, wo_rect area,
                              wo_sheet sheets[SHEETS], wo_sheet_counts *counts, wo_error *error)
 {
-    for (int i = 0; i < WO_LENS_BLUR_LAYERS; i++) {
-        if (!plan->setup.layer_used[i] || !args->inputs[2 * i].data)
+    const wo_lens_blur_setup *setup = &plan->setup;
+    for (int i = 0; i <= BACKGROUND; i++) {
+        const wo_sheet_source source = wo_lens_blur_layer(plan, args, i);
+        const bool used = i == BACKGROUND ? setup->background_used && setup->fill_levels > 0
+                                          : setup->layer_used[i];
+        if (!used || !source.colour->data)
             continue;
         WO_TRY(wo_sheet_create(&plan->context, area, &sheets[i], error));
-        const wo_sheet_source source = wo_lens_blur_layer(plan, args, i);
         WO_TRY(wo_sheet_load(&plan->context, &source, plan->window, &sheets[i], counts, error));
         WO_TRY(go_on(&plan->context, error));
     }
@@ -113,6 +117,11 @@ static void note_layers(wo_plan *plan, const wo_sheet sheets[SHEETS], int64_t sp
     else if (split == 0)
         wo_report_leave_out(report, "sheet of split edges", "no pixel mixes two distances", 1,
                             "sheets");
+    if (plan->geometry.connected[WO_CLIP_BACKGROUND] && !sheets[BACKGROUND].any)
+        wo_report_leave_out(report, "clean plate",
+                            plan->setup.has_depth ? "it shows nothing that is hidden"
+                                                  : "without depth nothing is hidden",
+                            1, "sheets");
     if (plan->setup.has_depth && !sheets[HIDDEN].any)
         wo_report_leave_out(report, "sheet of hidden surfaces", "nothing is hidden", 1, "sheets");
     if (!plan->lens.connect)
@@ -120,6 +129,89 @@ static void note_layers(wo_plan *plan, const wo_sheet sheets[SHEETS], int64_t sp
                             "this lens has no closed form: rays alone find them", 0, "");
     else if (plan->highlights.count == 0)
         wo_report_leave_out(report, "connections to highlights", "no blurred highlight", 0, "");
+}
+
+/* For the view: pixels of the window that were touched. */
+static void mark_split(wo_plan *plan, wo_rect area, const float *v, uint8_t mark)
+{
+    const wo_rect w = plan->window;
+    for (int32_t y = w.y1; y < w.y2; y++) {
+        const float *row = v + (size_t)(y - area.y1) * (size_t)wo_rect_width(area);
+        uint8_t *to = plan->split + (size_t)(y - w.y1) * (size_t)wo_rect_width(w);
+        for (int32_t x = w.x1; x < w.x2; x++)
+            if (!isnan(row[x - area.x1]))
+                to[x - w.x1] = mark;
+    }
+}
+
+/* Antialiased depth, then antialiased colour. The clean plate is not split: nobody sees its edges
+   in focus. */
+static wo_status mend_edges(wo_plan *plan, const wo_plan_args *args, int layer,
+                            wo_sheet sheets[SHEETS], int64_t *split, wo_error *error)
+{
+    const wo_context *context = &plan->context;
+    const wo_sheet_source source = wo_lens_blur_layer(plan, args, layer);
+    const double px = plan->lens.px_per_dioptre;
+    wo_sheet *sheet = &sheets[layer];
+    const size_t n = (size_t)wo_rect_width(sheet->area) * (size_t)wo_rect_height(sheet->area);
+    float *mix = NULL;
+    wo_status status = go_on(context, error);
+    if (status == WO_OK && plan->params.edge_repair == WO_EDGES_OF_COLOUR_AND_DEPTH &&
+        source.depth && source.depth->data) {
+        if (!(mix = wo_new_large(context, error, n, sizeof *mix)))
+            return WO_ERR_NOMEM;
+        status = wo_sheet_repair_depth(context, &source, px, plan->window, sheet, mix,
+                                       &plan->report.mixed_depth, error);
+        if (status == WO_OK && plan->split)
+            mark_split(plan, sheet->area, mix, WO_SPLIT_DEPTH);
+    }
+    if (status == WO_OK)
+        status = go_on(context, error);
+    if (status == WO_OK && layer != BACKGROUND)
+        status = wo_sheet_split_edges(context, px, mix, sheet, &sheets[EDGES], split, error);
+    wo_delete(context, mix);
+    return status;
+}
+
+/* What is behind the layers: the clean plate, then what can be told from the surfaces around. */
+static wo_status add_hidden(wo_plan *plan, bool plate_has_depth, wo_sheet sheets[SHEETS],
+                            wo_error *error)
+{
+    const wo_context *context = &plan->context;
+    const double px = plan->lens.px_per_dioptre;
+    wo_sheet *plate = &sheets[BACKGROUND];
+    const bool any = plate->any;
+    plate->any = false; /* it hides nothing itself */
+    if (any && plate_has_depth)
+        wo_sheet_keep_hidden(context, sheets, WO_LENS_BLUR_LAYERS, px, &sheets[EDGES], plate);
+    WO_TRY(go_on(context, error));
+    WO_TRY(empty_sheet(context, sheets[EDGES].area, &sheets[HIDDEN], error));
+    WO_TRY(wo_sheet_fill_hidden(context, sheets, HIDDEN, px, plan->setup.fill_levels,
+                                &sheets[HIDDEN], error));
+    if (any && !plate_has_depth)
+        wo_sheet_lend_depth(context, sheets, WO_LENS_BLUR_LAYERS, px, &sheets[EDGES],
+                            &sheets[HIDDEN], plate);
+    return WO_OK;
+}
+
+/* All that a scene with depth needs besides its layers. */
+static wo_status add_sheets(wo_plan *plan, const wo_plan_args *args, wo_rect area,
+                            wo_sheet sheets[SHEETS], int64_t *split, wo_error *error)
+{
+    const wo_context *context = &plan->context;
+    const wo_rect w = plan->window;
+    if (plan->params.output == WO_OUTPUT_SPLIT &&
+        !(plan->split =
+              wo_new(context, error, (size_t)wo_rect_width(w) * (size_t)wo_rect_height(w), 1)))
+        return WO_ERR_NOMEM;
+    WO_TRY(empty_sheet(context, area, &sheets[EDGES], error));
+    for (int i = 0; i <= BACKGROUND; i++)
+        if (sheets[i].any && plan->params.edge_repair != WO_EDGES_AS_THEY_ARE)
+            WO_TRY(mend_edges(plan, args, i, sheets, split, error));
+    if (plan->split)
+        mark_split(plan, area, sheets[EDGES].v, WO_SPLIT_TWO);
+    const wo_image *plate_depth = &args->inputs[WO_CLIP_BACKGROUND_DEPTH];
+    return add_hidden(plan, plate_depth->data != NULL, sheets, error);
 }
 
 static wo_status build_scene(wo_plan *plan, const wo_plan_args *args, wo_error *error)
@@ -142,20 +234,8 @@ static wo_status build_scene(wo_plan *plan, const wo_plan_args *args, wo_error *
     opaque_job job = {sheets, w, opaque};
     if (status == WO_OK)
         wo_run(context, opaque_row, &job, h);
-    if (status == WO_OK && plan->setup.fill_levels > 0) {
-        status = empty_sheet(context, area, &sheets[EDGES], error);
-        for (int i = 0; status == WO_OK && i < WO_LENS_BLUR_LAYERS; i++)
-            if (sheets[i].any && (status = go_on(context, error)) == WO_OK)
-                status = wo_sheet_split_edges(context, plan->lens.px_per_dioptre, &sheets[i],
-                                              &sheets[EDGES], &split, error);
-        if (status == WO_OK)
-            status = go_on(context, error);
-        if (status == WO_OK)
-            status = empty_sheet(context, area, &sheets[HIDDEN], error);
-        if (status == WO_OK)
-            status = wo_sheet_fill_hidden(context, sheets, HIDDEN, plan->lens.px_per_dioptre,
-                                          plan->setup.fill_levels, &sheets[HIDDEN], error);
-    }
+    if (status == WO_OK && plan->setup.fill_levels > 0)
+        status = add_sheets(plan, args, area, sheets, &split, error);
     if (status == WO_OK)
         status = go_on(context, error);
     if (status == WO_OK)
@@ -265,6 +345,7 @@ void wo_lens_blur_plan_destroy(wo_plan **plan)
     wo_stack_destroy(&context, &(*plan)->stack);
     wo_highlights_destroy(&context, &(*plan)->highlights);
     wo_lens_blur_lens_destroy(*plan);
+    wo_delete(&context, (*plan)->split);
     wo_delete(&context, *plan);
     *plan = NULL;
 }

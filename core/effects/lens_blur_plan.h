@@ -24,8 +24,10 @@ struct wo_plan {
     wo_thin_pencils *pencils[WO_LEVELS_MAX]; /* the one or the other */
     wo_table_pencils *table[WO_LEVELS_MAX];  /* [0] owns the table */
     wo_lens level[WO_LEVELS_MAX];
-    wo_table_facts facts; /* of the table */
-    double f_number;      /* reached by the lens */
+    wo_table_facts facts;       /* of the table */
+    wo_aperture_shape aperture; /* for showing it */
+    double aperture_scale;      /* 1 over its density where it is densest */
+    double f_number;            /* reached by the lens */
     wo_focus focus;
     wo_lens upright[WO_LEVELS_MAX]; /* before the tilt */
     wo_tilted_pencils tilted[WO_LEVELS_MAX];
@@ -36,8 +38,11 @@ struct wo_plan {
     wo_quality quality;
     bool copy;        /* nothing is blurred: the source is the picture; lens, stack, highlights and
                          rays are not made */
+    uint8_t *split;   /* over the window, only for the view: WO_SPLIT_* */
     wo_report report; /* of the planning; counted with the first window that is rendered */
 };
+
+enum { WO_SPLIT_NONE, WO_SPLIT_DEPTH, WO_SPLIT_TWO };
 
 wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params,
                                    const wo_plan_args *args, wo_plan **plan, wo_error *error);
@@ -51,8 +56,8 @@ void wo_lens_blur_plan_destroy(wo_plan **plan);
 wo_status wo_lens_blur_lens_make(wo_plan *plan, wo_error *error);
 void wo_lens_blur_lens_destroy(wo_plan *plan);
 
-/* How layer i is read. */
-wo_sheet_source wo_lens_blur_layer(const wo_plan *plan, const wo_plan_args *args, int i);
+/* How a layer is read; layer WO_LENS_BLUR_LAYERS is the Background. */
+wo_sheet_source wo_lens_blur_layer(const wo_plan *plan, const wo_plan_args *args, int layer);
 
 /* Sets plan->copy when the one layer there is has no blur of WO_SHARP_PX anywhere; needs params,
    geometry, setup and focus, and a window that is not empty. What it costs to find out is a look at

@@ -63,6 +63,9 @@ static wo_status make_frame(render_job *job, const wo_renderer *renderer, wo_err
     if (output == WO_OUTPUT_RAYS &&
         !(frame->rays = wo_new_large(context, error, w * h, sizeof *frame->rays)))
         return WO_ERR_NOMEM;
+    if (output == WO_OUTPUT_MASK &&
+        !(frame->mask = wo_new_large(context, error, w * h, sizeof *frame->mask)))
+        return WO_ERR_NOMEM;
     if ((renderer->estimates || output == WO_OUTPUT_ERROR) &&
         !(frame->error = wo_new_large(context, error, w * h, sizeof *frame->error)))
         return WO_ERR_NOMEM;
@@ -85,6 +88,7 @@ static void destroy_frame(render_job *job)
     wo_delete(context, job->frame.c);
     wo_delete(context, job->frame.guessed);
     wo_delete(context, job->frame.rays);
+    wo_delete(context, job->frame.mask);
     wo_delete(context, job->frame.error);
     wo_delete(context, job->skip);
 }
@@ -198,6 +202,7 @@ static wo_status render_frame(render_job *job, wo_report *report, wo_error *erro
                               .highlights = &plan->highlights,
                               .rays = &plan->rays,
                               .extent = plan->geometry.extent,
+                              .format = plan->geometry.format,
                               .quality = plan->quality};
     WO_TRY(renderer->render(&scene, &job->frame, &part, error));
     part.seconds[WO_STAGE_RENDER] = wo_seconds() - start;

@@ -63,6 +63,15 @@ static void guessed(const wo_plan *plan, const wo_frame *frame, int32_t x, int32
     out[3] = out[0];
 }
 
+static void split(const wo_plan *plan, const wo_frame *frame, int32_t x, int32_t y, float out[4])
+{
+    (void)frame;
+    const wo_rect w = plan->window;
+    const size_t at = (size_t)(y - w.y1) * (size_t)wo_rect_width(w) + (size_t)(x - w.x1);
+    show(plan->split ? 0.5 * plan->split[at] : 0, out);
+    out[3] = out[0];
+}
+
 /* Up to this radius of blur a surface counts as in focus, px. */
 #define IN_FOCUS_PX 0.5
 
@@ -80,9 +89,37 @@ static void focus_plane(const wo_plan *plan, const wo_frame *frame, int32_t x, i
         out[px > IN_FOCUS_PX ? 2 : px < -IN_FOCUS_PX ? 0 : 1] += 0.1f + 0.4f * grey;
 }
 
+static void mask(const wo_plan *plan, const wo_frame *frame, int32_t x, int32_t y, float out[4])
+{
+    (void)plan;
+    show((double)frame->mask[wo_frame_at(frame, x, y)], out);
+}
+
+/* Of half the format's height: the radius that the aperture is shown with. */
+#define APERTURE_SHOWN 0.9
+
+/* The aperture as the photographer sees it, brightest where most light comes through. */
+static void aperture(const wo_plan *plan, const wo_frame *frame, int32_t x, int32_t y, float out[4])
+{
+    (void)frame;
+    enum { FINE = 4 }; /* points a pixel, each way */
+    const wo_rect f = plan->geometry.format;
+    const double stretch = plan->geometry.pixel_stretch;
+    const double radius =
+        0.5 * APERTURE_SHOWN * fmin(wo_rect_height(f) / stretch, wo_rect_width(f));
+    double sum = 0;
+    for (int i = 0; i < FINE * FINE; i++) {
+        const double px = x + (i % FINE + 0.5) / FINE - 0.5 * (f.x1 + f.x2);
+        const double py = y + (i / FINE + 0.5) / FINE - 0.5 * (f.y1 + f.y2);
+        sum += wo_aperture_density(&plan->aperture, px / radius, py / (radius * stretch));
+    }
+    show(sum / (FINE * FINE) * plan->aperture_scale, out);
+}
+
 const wo_view wo_views[WO_OUTPUT_COUNT] = {
     [WO_OUTPUT_IMAGE] = {true, image},        [WO_OUTPUT_COC] = {false, circle_of_confusion},
     [WO_OUTPUT_DEPTH] = {false, depth},       [WO_OUTPUT_RAYS] = {true, rays},
     [WO_OUTPUT_ERROR] = {true, error},        [WO_OUTPUT_GUESSED] = {true, guessed},
-    [WO_OUTPUT_FOCUS] = {false, focus_plane},
+    [WO_OUTPUT_FOCUS] = {false, focus_plane}, [WO_OUTPUT_SPLIT] = {false, split},
+    [WO_OUTPUT_MASK] = {true, mask},          [WO_OUTPUT_APERTURE] = {false, aperture},
 };

@@ -37,6 +37,7 @@ typedef struct wo_lens {
      */
     void (*pencil)(const void *self, double x, double y, unsigned set, int first,
                    wo_pencil_room *room, wo_pencil *out);
+    bool colours; /* weights may differ between red, green and blue */
     /* Largest distance |p(v) - x| of any ray over v_far <= v <= v_near, px. */
     double (*reach)(const void *self, double v_far, double v_near);
     /* px of blur radius per dioptre, for comparing vergences. */

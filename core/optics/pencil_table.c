@@ -326,6 +326,7 @@ wo_lens wo_table_pencils_lens(const wo_table_pencils *pencils)
                      .sets = pencils->sets,
                      .count = pencils->options.count,
                      .half = pencils->half,
+                     .colours = pencils->table->lines > 1,
                      .pencil = table_pencil,
                      .reach = table_reach,
                      .px_per_dioptre = pencils->options.px_per_dioptre};

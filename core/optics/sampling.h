@@ -17,7 +17,7 @@ static inline int wo_lattice_order(int j, int n)
 }
 
 /* Point at of n (0 <= at < n, fractions allowed) of a lattice over the aperture: the golden ratio's
-   rank-1 lattice, moved for each set (as Cranley and Patterson 1976 do at random). row tells
+   rank-1 lattice, moved for each set (Cranley and Patterson 1976). row tells
    lattices of one set from each other. */
 void wo_lattice_point(uint32_t seed, unsigned set, double at, int n, int row,
                       const wo_aperture_shape *shape, double u[2]);

@@ -40,10 +40,10 @@ double wo_thin_lens_coc(const wo_thin_lens *lens, double v);
 
 /* How a depth sample is to be read. */
 #define WO_DEPTH_MODE_LIST(X)                                                                      \
-    X(WO_DEPTH_DISTANCE, "distance", "Distance along the axis")                                    \
-    X(WO_DEPTH_INVERSE, "inverse", "1 / distance")                                                 \
-    X(WO_DEPTH_RAY, "ray", "Distance from the camera")                                             \
-    X(WO_DEPTH_NORMALISED, "normalised", "0 = near, 1 = far")
+    X(WO_DEPTH_DISTANCE, "distance", "Distance")                                                   \
+    X(WO_DEPTH_INVERSE, "inverse", "Inverse")                                                      \
+    X(WO_DEPTH_RAY, "ray", "Ray")                                                                  \
+    X(WO_DEPTH_NORMALISED, "normalised", "Normalised")
 
 typedef enum wo_depth_mode {
 #define WO_DEPTH_ENUM(name, key, label) name,

@@ -73,6 +73,7 @@ typedef struct wo_report {
     int64_t guessed_pixels;   /* pixels with more than 1/255 of such light */
     int64_t sanitised_colour; /* samples that were NaN or Inf and became 0 */
     int64_t sanitised_depth;  /* samples that were NaN, Inf, zero or negative: infinitely far */
+    int64_t mixed_depth;      /* pixels whose antialiased depth was repaired */
     int64_t edge_depth;       /* covered pixels without depth that took a neighbour's */
     int64_t clamped_radius;   /* pixels whose circle of confusion was cut to maxRadius */
     double largest_radius;    /* largest circle of confusion drawn, px, radius */

@@ -8,13 +8,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CELLS_MAX = 64 };
+enum { CELLS_MAX = 128 };
 
 static const wo_option options[] = {
     {"--output", "-o", "FILE", "Where the sheet goes: png, jpg, tif ...", false},
     {"--title", NULL, "TEXT", "Line on top.", false},
     {"--subtitle", NULL, "TEXT", "Smaller line under the title.", false},
-    {"--columns", NULL, "N", "Pictures in a row, 1..64; about as many as there are rows.", false},
+    {"--columns", NULL, "N", "Pictures in a row, 1..128; about as many as there are rows.", false},
     {"--width", NULL, "N", "Width of each picture in pixels, 16..8192; 480.", false},
     {"--ocio", NULL, "FILE",
      "OpenColorIO configuration; otherwise that of the variable OCIO, otherwise WideOpen's own.",
@@ -25,7 +25,8 @@ static const wo_usage usage = {
     .command = "sheet",
     .synopsis = "CAPTION=FILE ... -o FILE",
     .about = "Puts pictures side by side, each under the first shape's size, with captions below. "
-             "A | in a caption starts its second line. FILE is FILE[:CHANNELS].",
+             "A | in a caption starts its second line. FILE is FILE[:CHANNELS][*FACTOR]; FACTOR "
+             "brings numbers into what can be seen. Without FILE the place stays empty.",
     .positionals = "CAPTION=FILE",
     .positionals_min = 1,
     .positionals_max = CELLS_MAX,
@@ -43,10 +44,43 @@ typedef struct sheet {
     size_t count;
 } sheet;
 
+/* Cuts "*FACTOR" off the end of a name; 1 where there is none. */
+static float take_factor(char *name)
+{
+    char *const star = strrchr(name, '*');
+    if (!star || !star[1])
+        return 1;
+    char *end;
+    const float factor = strtof(star + 1, &end);
+    if (*end)
+        return 1;
+    *star = '\0';
+    return factor;
+}
+
+static wo_status load(sheet *s, const char *text, wo_image *image, wo_error *error)
+{
+    char *const name = strdup(text);
+    if (!name)
+        return wo_fail(error, WO_ERR_NOMEM, "no memory for a name");
+    const float factor = take_factor(name);
+    const wo_status status = wo_picture_load(s->colour, NULL, name, image, error);
+    free(name);
+    if (status != WO_OK)
+        return status;
+    const int32_t samples = wo_rect_width(image->bounds) * image->components;
+    for (int32_t y = image->bounds.y1; y < image->bounds.y2; y++) {
+        float *const row = wo_image_at(image, image->bounds.x1, y);
+        for (int32_t i = 0; i < samples; i++)
+            row[i] *= factor;
+    }
+    return WO_OK;
+}
+
 static int add_cell(sheet *s, const char *text)
 {
     const char *const equals = strchr(text, '=');
-    if (!equals || !equals[1])
+    if (!equals)
         return wo_usage_fault("sheet", "\"%s\" must be CAPTION=FILE", text);
     const size_t length = (size_t)(equals - text);
     const size_t first = strcspn(text, "|") < length ? strcspn(text, "|") : length;
@@ -56,10 +90,12 @@ static int add_cell(sheet *s, const char *text)
         snprintf(s->captions[i][1], sizeof s->captions[i][1], "%.*s", (int)(length - first - 1),
                  text + first + 1);
     wo_error error = {0};
-    if (wo_picture_load(s->colour, NULL, equals + 1, &s->images[i], &error) != WO_OK)
+    if (equals[1] && load(s, equals + 1, &s->images[i], &error) != WO_OK)
         return wo_failure(&error);
-    s->cells[i] = (wo_picture_cell){
-        &s->images[i], true, {s->captions[i][0], *s->captions[i][1] ? s->captions[i][1] : NULL}};
+    s->cells[i] =
+        (wo_picture_cell){equals[1] ? &s->images[i] : NULL,
+                          true,
+                          {s->captions[i][0], *s->captions[i][1] ? s->captions[i][1] : NULL}};
     s->count++;
     return WO_EXIT_OK;
 }

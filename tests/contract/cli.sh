@@ -373,6 +373,8 @@ checks=$((checks + 1))
 
 expect 0 sheet "sharp=$scene" 'blurred|8 rays=out.exr' -o sheet.png --title 'Two planes' --columns 2
 present sheet.png
+expect 0 sheet "scaled=$scene*0.5" 'empty=' 'last=out.exr' -o scaled.png --columns 3
+present scaled.png
 expect 2 sheet out.exr -o x.png
 expect 2 sheet a=out.exr
 expect 1 sheet a=missing.exr -o x.png

@@ -2,6 +2,7 @@
 /* Copyright the WideOpen authors */
 #include "effect_table.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -111,6 +112,19 @@ static bool is_whole(double value)
     return value == floor(value) && fabs(value) <= INT32_MAX;
 }
 
+/* Are label and key the same, but for case and what is no letter or digit? */
+static bool reads_as(const char *label, const char *key)
+{
+    for (;; label++, key++) {
+        while (*label && !isalnum((unsigned char)*label))
+            label++;
+        if (tolower((unsigned char)*label) != tolower((unsigned char)*key))
+            return false;
+        if (!*key)
+            return true;
+    }
+}
+
 static void check_choices(const char *effect, const wo_param *p, faults *f)
 {
     enum { MOST = 64 };
@@ -142,6 +156,10 @@ static void check_choices(const char *effect, const wo_param *p, faults *f)
             fault(f, "%s.%s: the labels do not go with the choices", effect, p->key);
             return;
         }
+    for (int i = 0; p->choice_labels && i < count; i++)
+        if (!reads_as(p->choice_labels[i], p->choices[i]))
+            fault(f, "%s.%s: \"%s\" is not the choice \"%s\" to hosts that know labels only",
+                  effect, p->key, p->choice_labels[i], p->choices[i]);
 }
 
 static void check_numbers(const char *effect, const wo_param *p, faults *f)

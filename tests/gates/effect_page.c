@@ -139,6 +139,13 @@ static void add_param(page *p, const wo_param *param, const void *defaults)
     page_free(&facts);
 }
 
+/* What the group's parameters do, in one picture. */
+static void add_picture(page *p, const wo_param_group *group)
+{
+    page_add(p, "![What the parameters of %s do](../../footage/pictures/parameters-%s.png)\n",
+             group->label, group->key);
+}
+
 void page_write(const wo_effect *e, page *p)
 {
     char *const defaults = calloc(1, e->params_size);
@@ -153,6 +160,8 @@ void page_write(const wo_effect *e, page *p)
     page_add(p, "\n## Parameters\n");
     for (size_t i = 0; i < e->group_count; i++) {
         page_add(p, "\n### %s\n\n", e->groups[i].label);
+        add_picture(p, &e->groups[i]);
+        page_add(p, "\n");
         for (size_t j = 0; j < e->param_count; j++)
             if (strcmp(e->params[j].group, e->groups[i].key) == 0)
                 add_param(p, &e->params[j], defaults);
@@ -241,6 +250,13 @@ void page_check(const wo_effect *e, const char *text, faults *f)
                   found ? found : "nothing more", wanted ? wanted : "nothing more");
             break;
         }
+    }
+    for (size_t i = 0; i < e->group_count; i++) {
+        page picture = {0};
+        add_picture(&picture, &e->groups[i]);
+        if (!strstr(text, picture.data))
+            fault(f, "%s: the page shows no picture of group %s", name, e->groups[i].key);
+        page_free(&picture);
     }
     page_free(&table.piece);
     page_free(&own.piece);

@@ -21,6 +21,7 @@ static const char *const mode_labels[] = {"Plain", "Fancy", NULL};
 static const char *const few[] = {"plain", NULL};
 static const char *const same[] = {"plain", "plain", NULL};
 static const char *const odd[] = {"plain", "very fancy", NULL};
+static const char *const other_labels[] = {"Plain", "With frills", NULL};
 static const char *const more_labels[] = {"Plain", "Fancy", "Third", NULL};
 
 enum { SIZE, MODE, COUNT, PLACE, TEXT, ROWS };
@@ -222,6 +223,7 @@ static void check_table_mistakes(faults *f)
     MISTAKE(s.params[MODE].choices = odd, "is no camelCase");
     MISTAKE(s.params[MODE].choice_labels = few, "labels do not go");
     MISTAKE(s.params[MODE].choice_labels = more_labels, "labels do not go");
+    MISTAKE(s.params[MODE].choice_labels = other_labels, "is not the choice");
     MISTAKE(s.params[MODE].max = 2, "the choices");
     MISTAKE(s.params[COUNT].offset = s.params[MODE].offset, "overlaps");
     MISTAKE(s.params[COUNT].offset += 2, "overlaps");
@@ -280,9 +282,51 @@ static void try_page(const char *from, const char *to, bool wrong, faults *f)
     page_free(&changed);
 }
 
+/* The list of pictures of the sample with one part replaced; then it is wrong, or still right. */
+static void try_list(const char *from, const char *to, bool wrong, faults *f)
+{
+    static const char *const good = "# Words.\n\n[shape]\nsize | 1 2*0.5 | shot | count=4\n"
+                                    "mode | plain fancy | shot | place=1,1 size=3\n"
+                                    "[rest]\ncount | 1 8 | shot |\n"
+                                    "place | 0,0 1,1 | shot |\ntext | hello you | shot |\n";
+    sample s;
+    page changed = {0};
+    faults found = {0};
+    make(&s);
+    const char *const at = strstr(good, from);
+    if (!at) {
+        fault(f, "a list without: %s", from);
+        return;
+    }
+    page_add(&changed, "%.*s%s%s", (int)(at - good), good, to, at + strlen(from));
+    pictures_check(&s.effect, changed.data, NULL, &found);
+    if (wrong != (found.count > 0))
+        fault(f, "list of pictures, %s: \"%s\" instead of \"%s\"",
+              wrong ? "not found" : "found, but right", to, from);
+    page_free(&changed);
+}
+
+static void check_list_mistakes(faults *f)
+{
+    try_list("# Words.", "# Other words.", false, f);
+    try_list("[shape]", "[rest]", true, f);
+    try_list("[shape]", "", true, f);
+    try_list("size |", "sizes |", true, f);
+    try_list("size | 1 2", "size | 1 11", true, f);
+    try_list("1 2*0.5", "1", true, f);
+    try_list("plain fancy", "plain fanciest", true, f);
+    try_list("count | 1 8 | shot |\n", "", true, f);
+    try_list("count | 1 8 | shot |\n", "count | 1 8 | shot |\ncount | 1 8 | shot |\n", true, f);
+    try_list("count | 1 8 | shot |\n", "count | 1 8 | shot\n", true, f);
+    try_list("count | 1 8 | shot |\n", "count# | 1 8 | shot |\n", true, f);
+    try_list("count=4", "count=9", true, f);
+    try_list("count=4", "counts=4", true, f);
+}
+
 void check_checks(faults *f)
 {
     check_table_mistakes(f);
+    check_list_mistakes(f);
     try_page("# Small", "# Large", true, f);
     try_page("Nothing at all.", "Everything.", true, f);
     try_page("* `size`: How large it is.", "* `size`: How large.", true, f);
@@ -291,6 +335,7 @@ void check_checks(faults *f)
     try_page("slider 1 to 5", "slider 1 to 6", true, f);
     try_page("* `text`: What it says.\n  - Text: text, default `hello`\n", "", true, f);
     try_page("## Parameters\n", "## Parameters\n\n* `more`: Another one.\n", true, f);
+    try_page("parameters-rest.png", "parameters-all.png", true, f);
     try_page("* `Mask`", "* `Matte`", true, f);
     try_page("## Clips", "## Pictures", true, f);
     try_page("## Parameters", "## Clips", true, f);

@@ -6,6 +6,9 @@
    usage: effect_table check          checks the tables
           effect_table pages FOLDER   compares the pages in FOLDER with the tables
           effect_table page EFFECT    prints the page of an effect
+          effect_table pictures EFFECT LIST FOLDER
+                                      compares the list of the pictures of its parameters with
+                                      the table, and looks for the pictures in FOLDER
           effect_table selftest       shows that these checks find mistakes
    Exit 0: all is well. 1: it is not (each fault is printed). 2: wrong use. */
 
@@ -19,7 +22,9 @@
 
 static int usage(void)
 {
-    fputs("usage: effect_table check | pages FOLDER | page EFFECT | selftest\n", stderr);
+    fputs("usage: effect_table check | pages FOLDER | page EFFECT | pictures EFFECT LIST FOLDER | "
+          "selftest\n",
+          stderr);
     return 2;
 }
 
@@ -34,21 +39,40 @@ static void check_all(faults *f)
     }
 }
 
+static bool read_text(const char *path, page *text)
+{
+    char part[4096];
+    FILE *const file = fopen(path, "rb");
+    if (!file)
+        return false;
+    while (fgets(part, sizeof part, file))
+        page_add(text, "%s", part);
+    fclose(file);
+    return true;
+}
+
+static void check_pictures(const char *name, const char *path, const char *folder, faults *f)
+{
+    const wo_effect *const effect = wo_effect_find(name);
+    page text = {0};
+    if (!effect || !read_text(path, &text))
+        fault(f, "%s, %s: no such effect or list", name, path);
+    else
+        pictures_check(effect, text.data ? text.data : "", folder, f);
+    page_free(&text);
+}
+
 static void check_page(const wo_effect *effect, const char *folder, faults *f)
 {
-    char path[4096], name[128], part[4096];
+    char path[4096], name[128];
     page text = {0};
     page_name(effect, name);
     snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *const file = fopen(path, "rb");
-    if (!file) {
+    if (!read_text(path, &text)) {
         fault(f, "%s: there is no page core/effects/%s; make one with: effect_table page %s",
               effect->name, name, effect->name);
         return;
     }
-    while (fgets(part, sizeof part, file))
-        page_add(&text, "%s", part);
-    fclose(file);
     page_check(effect, text.data ? text.data : "", f);
     page_free(&text);
 }
@@ -104,6 +128,8 @@ int main(int argc, char **argv)
         check_pages(argv[2], &f);
     else if (argc == 3 && strcmp(argv[1], "page") == 0)
         return print_page(argv[2]);
+    else if (argc == 5 && strcmp(argv[1], "pictures") == 0)
+        check_pictures(argv[2], argv[3], argv[4], &f);
     else if (argc == 2 && strcmp(argv[1], "selftest") == 0)
         check_checks(&f);
     else

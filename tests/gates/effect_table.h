@@ -33,12 +33,17 @@ void page_free(page *p);
 /* The documentation of an effect as a page of Markdown. */
 void page_write(const wo_effect *effect, page *p);
 
-/* Compares a page with the tables: title, first paragraph, and every bullet below "Clips" and
-   "Parameters". Other text and other sections are free. */
+/* Compares a page with the tables: title, first paragraph, every bullet below "Clips" and
+   "Parameters", and a picture of each group. Other text and other sections are free. */
 void page_check(const wo_effect *effect, const char *text, faults *f);
 
 /* Name of an effect's page: "LensBlur" becomes "lens_blur.md". */
 void page_name(const wo_effect *effect, char name[128]);
+
+/* Compares the list of the pictures of an effect's parameters (footage/parameter_pictures.txt) with
+   its table: every row is shown once, below its group, with two or more values that it takes. Is
+   there a sheet for each group in folder? NULL: not looked for. */
+void pictures_check(const wo_effect *effect, const char *text, const char *folder, faults *f);
 
 /* Tables and pages with one mistake each; a mistake that is not found is a fault. */
 void check_checks(faults *f);

@@ -46,12 +46,15 @@ endif()
 add_executable(effect_table
     ${gates}/effect_check.c
     ${gates}/effect_page.c
+    ${gates}/effect_pictures.c
     ${gates}/effect_selftest.c
     ${gates}/effect_table.c)
 target_include_directories(effect_table PRIVATE ${PROJECT_SOURCE_DIR})
 target_link_libraries(effect_table PRIVATE wo_core wo_base wo_options m)
 wo_add_gate(effect_tables effect_table check)
 wo_add_gate(effect_pages effect_table pages ${PROJECT_SOURCE_DIR}/core/effects)
+wo_add_gate(effect_pictures effect_table pictures LensBlur
+    ${PROJECT_SOURCE_DIR}/footage/parameter_pictures.txt ${PROJECT_SOURCE_DIR}/footage/pictures)
 wo_add_gate(selftest_effects effect_table selftest)
 
 # Our OpenFX headers against the facts of the standard.

@@ -9,10 +9,17 @@ target_include_directories(wo_test_scenes PUBLIC
 target_link_libraries(wo_test_scenes PUBLIC
     wo_core wo_base wo_options cmocka Threads::Threads m)
 
-foreach(name IN ITEMS focus_control invariance layout leave_out lens_image lens_looks quality smoothness spread)
+foreach(name IN ITEMS filter_image focus_control invariance knobs layout leave_out lens_image
+        lens_looks quality edges smoothness spread)
     add_executable(test_${name} ${property_dir}/test_${name}.c)
     target_link_libraries(test_${name} PRIVATE wo_test_scenes)
     add_test(NAME property.${name} COMMAND test_${name})
     set_tests_properties(property.${name} PROPERTIES TIMEOUT 300)
 endforeach()
 set_tests_properties(property.layout PROPERTIES LABELS threads)
+
+# The same of every method, over the footage too.
+add_executable(test_coverage ${property_dir}/test_coverage.c)
+target_link_libraries(test_coverage PRIVATE wo_test_scenes wo_blur_footage)
+add_test(NAME property.coverage COMMAND test_coverage)
+set_tests_properties(property.coverage PROPERTIES TIMEOUT 600)

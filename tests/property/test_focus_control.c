@@ -293,56 +293,6 @@ static void a_clip_drives_the_focus(void **state)
     scene_free(&s);
 }
 
-/* Every row of the group does something. */
-static void every_knob_turns(void **state)
-{
-    (void)state;
-    scene s;
-    slanted_chart(&s, (wo_rect){0, 0, 96, 54});
-    scene_px_per_dioptre(&s, 14);
-    s.params.samples = 4;
-    s.params.focus_by = WO_FOCUS_BY_SURFACE;
-    s.params.focus_points = WO_FOCUS_POINTS;
-    rng r = {11};
-    for (int i = 0; i < WO_FOCUS_POINTS; i++) {
-        set_point(&s, i, rng_range(&r, 5, i ? 90 : 120), rng_range(&r, 5, 50));
-        s.params.focus_offset[i] = rng_range(&r, -0.2, 0.2);
-    }
-    set_point(&s, 0, 100, 30); /* outside: fading */
-    int turned = 0;
-    for (size_t i = 0; i < WO_LENS_BLUR_PARAMS; i++) {
-        const wo_param *const row = &wo_lens_blur_table[i];
-        if (strcmp(row->group, "focusControl") != 0)
-            continue;
-        scene one = s;
-        if (strcmp(row->key, "focusClip") == 0) { /* counts where there is one */
-            one.clip[WO_CLIP_FOCUS] = picture_make(s.geometry.extent, 1);
-            picture_fill(&one.clip[WO_CLIP_FOCUS], (const float[1]){1.5f});
-        }
-        wo_image before = scene_render(&one, NULL);
-        double values[3];
-        wo_param_get(row, &one.params, values);
-        for (int k = 0; k < wo_param_values(row); k++)
-            values[k] = row->type == WO_PARAM_POINT ? values[k] + 6
-                        : values[k] == row->ui_max  ? row->ui_min
-                        : row->type == WO_PARAM_DOUBLE
-                            ? values[k] + 0.25 * (row->ui_max - values[k])
-                            : values[k] + 1;
-        assert_int_equal(wo_param_set(row, &one.params, values, NULL), WO_OK);
-        wo_image after = scene_render(&one, NULL);
-        assert_true(picture_finite(&after));
-        if (!(picture_difference(&before, &after, before.bounds) > 1e-3))
-            fail_msg("%s changes nothing", row->key);
-        picture_free(&before);
-        picture_free(&after);
-        if (one.clip[WO_CLIP_FOCUS].data)
-            picture_free(&one.clip[WO_CLIP_FOCUS]);
-        turned++;
-    }
-    assert_int_equal(turned, 10 + 4 * WO_FOCUS_POINTS);
-    scene_free(&s);
-}
-
 /* The view of the focus: the colour says on which side of it a pixel is. */
 static void the_view_shows_the_side(void **state)
 {
@@ -416,7 +366,6 @@ int main(void)
         cmocka_unit_test(tiles_are_the_whole),
         cmocka_unit_test(a_point_that_leaves_does_not_pop),
         cmocka_unit_test(a_clip_drives_the_focus),
-        cmocka_unit_test(every_knob_turns),
         cmocka_unit_test(the_view_shows_the_side),
         cmocka_unit_test(any_lens_can_be_tilted),
     };

@@ -24,6 +24,17 @@ static void scene_make_in(scene *s, int kind, wo_rect extent)
     for (int32_t y = 20; y < 100 && kind == 1; y++)
         for (int32_t x = 30; x < 150 - y / 2; x++)
             wo_image_at(&s->clip[WO_CLIP_SOURCE], x, y)[y & 1] = 25;
+    /* A clean plate: without depth, and with one. */
+    wo_image *const plate = kind == 1 || kind == 2 ? scene_clip(s, WO_CLIP_BACKGROUND, 4) : NULL;
+    wo_image *const plate_depth = kind == 2 ? scene_clip(s, WO_CLIP_BACKGROUND_DEPTH, 1) : NULL;
+    for (int32_t y = extent.y1; plate && y < extent.y2; y++)
+        for (int32_t x = extent.x1; x < extent.x2; x++) {
+            const float level = 0.02f * (float)((x + 3 * y) & 31);
+            const float c[4] = {level, 0.3f, 0.8f - level, 1};
+            memcpy(wo_image_at(plate, x, y), c, sizeof c);
+            if (plate_depth)
+                *wo_image_at(plate_depth, x, y) = 6 + 0.02f * (float)(y & 63);
+        }
     if (kind != 3)
         return;
     wo_image *const mask = scene_clip(s, WO_CLIP_MASK, 1);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
+#include "defocus/renderer.h"
 #include "near.h"
 #include "optics/lens_choice.h"
 #include "scenes.h"
@@ -30,6 +31,7 @@ static scene dot_scene(const look *l)
     s.params.focal_length = l->focal;
     s.params.f_stop = l->n;
     s.params.best_focus = 0;
+    s.params.method = WO_METHOD_RAYS; /* the lens is looked at, not the smoothing of hybrid */
     s.params.samples = 2048;
     const double vf = 2 * fabs(l->dv);
     s.params.focus_distance = 1 / vf;
@@ -296,6 +298,7 @@ static void two_dots(scene *s, const char *design, double n, double dv, double s
         s->params.lens_design++;
     s->params.focal_length = 60;
     s->params.f_stop = n;
+    s->params.method = WO_METHOD_RAYS;
     s->params.samples = 256;
     s->params.focus_distance = 1 / vf;
     s->params.sensor_width = 36;

@@ -103,6 +103,7 @@ static const double bars[METHODS][2] = {
     [WO_METHOD_RAYS] = {5, 2},
     [WO_METHOD_FILTER] = {2.6, 17},
     [WO_METHOD_SPREAD] = {2, 2.6},
+    [WO_METHOD_ACCUMULATE] = {99, 99},
 };
 
 static void detail_blurs_smoothly(void **state)

@@ -49,7 +49,8 @@ static wo_context context_of(bank *b, long fail_at)
     return context;
 }
 
-/* Two layers, edges, hidden surfaces, highlights, a mask: every part of the plan is made. */
+/* Two layers, a clean plate, edges, hidden surfaces, highlights, a mask: every part of the plan is
+ * made. */
 static scene two_layers(void)
 {
     scene s;
@@ -58,6 +59,7 @@ static scene two_layers(void)
     scene_px_per_dioptre(&s, 14);
     scene_fill_layers(&s, 2);
     picture_fill(scene_clip(&s, WO_CLIP_MASK, 1), (const float[1]){1});
+    picture_fill(scene_clip(&s, WO_CLIP_BACKGROUND, 4), (const float[4]){0.5f, 0.5f, 0.5f, 1});
     return s;
 }
 

@@ -75,7 +75,8 @@ static void mixtures_are_unmixed(void **state)
         wo_sheet edges = sheet_make(square);
         int64_t split = 0;
         int64_t counted = 0;
-        assert_int_equal(wo_sheet_split_edges(&plain, 4, &sheet, &edges, &split, NULL), WO_OK);
+        assert_int_equal(wo_sheet_split_edges(&plain, 4, NULL, &sheet, &edges, &split, NULL),
+                         WO_OK);
         /* Away from the border of the picture, where the neighbours are known. */
         for (int32_t i = 0; i < SIDE * SIDE; i++) {
             const double part = near_part(angle, shift, i % SIDE, i / SIDE);
@@ -122,19 +123,19 @@ static void what_is_no_edge_stays(void **state)
     wo_sheet sheet = edge_scene(0.5, 0.2);
     wo_sheet edges = sheet_make(square);
     int64_t split = 0;
-    assert_int_equal(wo_sheet_split_edges(&plain, 0.2, &sheet, &edges, &split, NULL), WO_OK);
+    assert_int_equal(wo_sheet_split_edges(&plain, 0.2, NULL, &sheet, &edges, &split, NULL), WO_OK);
     assert_int_equal(split, 0);
     assert_false(edges.any);
     /* Two surfaces that meet without a mixture. */
     for (size_t i = 0; i < SIDE * SIDE; i++)
         put(&sheet, i, i % SIDE < 11 ? v_near : v_far, i % SIDE < 11 ? near_colour : far_colour);
-    assert_int_equal(wo_sheet_split_edges(&plain, 4, &sheet, &edges, &split, NULL), WO_OK);
+    assert_int_equal(wo_sheet_split_edges(&plain, 4, NULL, &sheet, &edges, &split, NULL), WO_OK);
     assert_int_equal(split, 0);
     /* A third colour at the edge is no mixture of the two. */
     const float green[4] = {0, 3, 0, 1};
     for (size_t y = 0; y < SIDE; y++)
         put(&sheet, y * SIDE + 11, v_far, green);
-    assert_int_equal(wo_sheet_split_edges(&plain, 4, &sheet, &edges, &split, NULL), WO_OK);
+    assert_int_equal(wo_sheet_split_edges(&plain, 4, NULL, &sheet, &edges, &split, NULL), WO_OK);
     assert_int_equal(split, 0);
     for (size_t y = 0; y < SIDE; y++)
         assert_memory_equal(sheet.c[y * SIDE + 11], green, sizeof green);
@@ -151,7 +152,7 @@ static void taken_places_stay_taken(void **state)
     for (size_t i = 0; i < SIDE * SIDE / 2; i++)
         put(&edges, i, 9, other);
     int64_t split = 5;
-    assert_int_equal(wo_sheet_split_edges(&plain, 4, &sheet, &edges, &split, NULL), WO_OK);
+    assert_int_equal(wo_sheet_split_edges(&plain, 4, NULL, &sheet, &edges, &split, NULL), WO_OK);
     assert_true(split > 5 + SIDE / 2 - 2 && split <= 5 + SIDE / 2 + 1);
     for (size_t i = 0; i < SIDE * SIDE / 2; i++) {
         assert_true(edges.v[i] == 9);
