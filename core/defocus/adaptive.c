@@ -32,7 +32,7 @@ static void scale_sums(wo_march_sums *sums, float scale)
 static bool trace(wo_tile_work *work, const wo_lens *lens, unsigned pass, double scale,
                   wo_tile_sums *sums, wo_report *report)
 {
-    const int count = work->tile->class == WO_TILE_SHARP ? 1 : lens->count;
+    const int count = wo_ray_tile_straight(work->tile) ? 1 : lens->count;
     for (int32_t row = 0; row < WO_TILE_HEIGHT; row++) {
         for (int run_index = 0; run_index < WO_PHASES; run_index++) {
             wo_march_sums halves[2];
@@ -79,7 +79,7 @@ bool wo_tile_sample(const wo_defocus *scene, wo_tile_work *work, wo_tile_error *
             pow((double)lens->count / scene->levels[0].count, WO_LATTICE_POWER - 1);
         if (!trace(work, lens, pass, scale, sums, report))
             return false;
-        if (work->tile->class == WO_TILE_SHARP)
+        if (wo_ray_tile_straight(work->tile))
             return true;
         const double e = WO_ERROR_SIGMAS * WO_HALVES_TO_ERROR * sqrt(error(user, work, sums));
         if (e <= scene->quality.target_error)

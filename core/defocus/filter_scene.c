@@ -277,10 +277,10 @@ static void put(float *const planes[7], ptrdiff_t at, const surfaces *s,
 static int sheets_of(const wo_stack *stack, int32_t x, int32_t y, int sheets[WO_SHEETS_MAX])
 {
     int count = 0;
-    bool gaps = false;
+    unsigned flags = 0;
     for (int s = 0; s < stack->sheets; s++) {
         const wo_bounds b =
-            wo_stack_bounds(stack, s, (wo_rect){x, y, x + WO_BLOCK, y + WO_CELL}, &gaps);
+            wo_stack_bounds(stack, s, (wo_rect){x, y, x + WO_BLOCK, y + WO_CELL}, &flags);
         if (b.v_min <= b.v_max)
             sheets[count++] = s;
     }

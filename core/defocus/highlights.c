@@ -5,6 +5,7 @@
 #include "defocus/march.h"
 
 #include <math.h>
+#include <string.h>
 
 static int32_t floor_div(int32_t x, int32_t d)
 {
@@ -31,6 +32,49 @@ typedef struct share_cache {
     int count;
 } share_cache;
 
+/* Discs up to SOFT px of reach have edges cut by the area of each pixel, so that they grow
+   smoothly; from there to twice that it matters less and less, and then the middle of the pixel
+   counts. */
+#define SOFT 6.0
+enum { PLACES = 8 };
+
+/* Density of rays over the pixel at the offset (dx, dy), and one of them. */
+static double density_at(const wo_lens *lens, int32_t dx, int32_t dy, float v, float reach,
+                         double line[4])
+{
+    const double soft = fmin(fmax(2 - (double)reach / SOFT, 0), 1);
+    double sum = 0;
+    double middle[4];
+    const double density = lens->connect(lens->self, dx, dy, v, middle);
+    /* Corners and middle alike: the edge is elsewhere. */
+    double corners[4] = {0};
+    for (int i = 0; i < 4 && soft > 0; i++)
+        corners[i] = lens->connect(lens->self, dx + (i & 1) - 0.5, dy + i / 2 - 0.5, v, line);
+    const bool even = corners[0] == corners[1] && corners[0] == corners[2] &&
+                      corners[0] == corners[3] && corners[0] == density &&
+                      (corners[0] > 0 || dx * dx + dy * dy > 2);
+    for (int i = 0; i < PLACES * PLACES && soft > 0 && !even; i++) {
+        const double x = dx + (i % PLACES + 0.5) / PLACES - 0.5;
+        const double y = dy + (i / PLACES + 0.5) / PLACES - 0.5;
+        double inside[4];
+        const double d = lens->connect(lens->self, x, y, v, inside);
+        if (d > 0)
+            memcpy(line, inside, sizeof inside);
+        sum += d;
+    }
+    sum = soft * (even ? corners[0] : sum / (PLACES * PLACES));
+    /* The ray through the middle, if it is there. */
+    if (density > 0)
+        memcpy(line, middle, sizeof middle);
+    return sum + (1 - soft) * density;
+}
+
+/* px from the middle of a highlight that its light may reach. */
+static int32_t extent_of(float reach)
+{
+    return (int32_t)ceilf(reach + 0.5f);
+}
+
 /* Share of the light that reaches one pixel for a unit of connect density, so that the sum over all
    pixels is 1. Large pictures of the aperture are counted on every step-th pixel of each row, each
    row from another start. */
@@ -38,7 +82,7 @@ static double share(const wo_lens *lens, float v, float reach)
 {
     enum { COUNTED = 128 };
     const double golden = 0.6180339887498949;
-    const int32_t r = (int32_t)ceilf(reach);
+    const int32_t r = extent_of(reach);
     const int32_t step = r / COUNTED > 1 ? r / COUNTED : 1;
     double sum = 0;
     double line[4];
@@ -46,7 +90,7 @@ static double share(const wo_lens *lens, float v, float reach)
         double whole;
         const int32_t start = (int32_t)(step * modf((dy + r) * golden, &whole));
         for (int32_t dx = start - r; dx <= r; dx += step)
-            sum += lens->connect(lens->self, dx, dy, v, line);
+            sum += density_at(lens, dx, dy, v, reach, line);
     }
     return sum > 0 ? 1 / (sum * step) : 0;
 }
@@ -61,18 +105,37 @@ static double cached_share(share_cache *cache, const wo_lens *lens, float v, flo
     return cache->share[at] = share(lens, v, reach);
 }
 
+/* What makes a pixel of a sheet a highlight. */
+typedef struct spot {
+    float v;     /* rounded */
+    float reach; /* px */
+    float taken; /* of its light, 0..1 */
+} spot;
+
+/* Part of the light above the level that is connected: a blur that grows slowly may not change the
+   picture at once. */
+static float fade(double reach)
+{
+    const double t = (reach - WO_HIGHLIGHT_FROM) / (WO_HIGHLIGHT_WHOLE - WO_HIGHLIGHT_FROM);
+    return (float)(t >= 1 ? 1 : t * t * (3 - 2 * t));
+}
+
 /* One pixel of a sheet that is a highlight, or not. */
-static bool is_highlight(const take_job *job, const wo_sheet *sheet, size_t at, float *v,
-                         float *peak, double *reach)
+static bool is_highlight(const take_job *job, const wo_sheet *sheet, size_t at, spot *found)
 {
     const float *c = sheet->c[at];
-    *peak = fmaxf(c[0], fmaxf(c[1], c[2]));
-    if (!(*peak > WO_HIGHLIGHT_LEVEL) || isnan(sheet->v[at]))
+    const float peak = fmaxf(c[0], fmaxf(c[1], c[2]));
+    if (!(peak > WO_HIGHLIGHT_LEVEL) || isnan(sheet->v[at]))
         return false;
-    const double step = job->lens->px_per_dioptre * QUANTUM;
-    *v = (float)(rint(sheet->v[at] * step) / step);
-    *reach = job->lens->reach(job->lens->self, *v, *v);
-    return *reach >= WO_HIGHLIGHT_RADIUS;
+    const wo_lens *lens = job->lens;
+    const double step = lens->px_per_dioptre * QUANTUM;
+    found->v = (float)(rint(sheet->v[at] * step) / step);
+    found->reach = (float)lens->reach(lens->self, found->v, found->v);
+    const double exact = lens->reach(lens->self, sheet->v[at], sheet->v[at]);
+    if (!(exact > WO_HIGHLIGHT_FROM))
+        return false;
+    found->taken = fade(exact) * (peak - WO_HIGHLIGHT_LEVEL) / peak;
+    return true;
 }
 
 static wo_rect tile_of(wo_rect tiles, size_t index)
@@ -88,9 +151,7 @@ static void count_tile(void *user, size_t index, unsigned worker)
 {
     (void)worker;
     take_job *job = user;
-    float v;
-    float peak;
-    double reach;
+    spot found;
     for (size_t s = 0; s < job->sheet_count; s++) {
         const wo_sheet *sheet = &job->sheets[s];
         const wo_rect r = wo_rect_intersect(tile_of(job->tiles, index), sheet->area);
@@ -98,7 +159,7 @@ static void count_tile(void *user, size_t index, unsigned worker)
         for (int32_t y = r.y1; sheet->any && y < r.y2; y++)
             for (int32_t x = r.x1; x < r.x2; x++) {
                 const size_t at = (size_t)((y - sheet->area.y1) * w + x - sheet->area.x1);
-                job->counts[index] += is_highlight(job, sheet, at, &v, &peak, &reach);
+                job->counts[index] += is_highlight(job, sheet, at, &found);
             }
     }
 }
@@ -119,15 +180,13 @@ static void take_tile(void *user, size_t index, unsigned worker)
         for (int32_t y = r.y1; sheet->any && y < r.y2; y++) {
             for (int32_t x = r.x1; x < r.x2; x++) {
                 const size_t at = (size_t)((y - sheet->area.y1) * w + x - sheet->area.x1);
-                float v;
-                float peak;
-                double reach;
-                if (!is_highlight(job, sheet, at, &v, &peak, &reach))
+                spot found;
+                if (!is_highlight(job, sheet, at, &found))
                     continue;
-                const double part = cached_share(&cache, job->lens, v, (float)reach);
+                const double part = cached_share(&cache, job->lens, found.v, found.reach);
                 /* Slits that no pixel looks through: the light stays with the surface. */
-                const float above = part > 0 ? (peak - WO_HIGHLIGHT_LEVEL) / peak : 0;
-                *to = (wo_highlight){x, y, v, (float)reach, packed, {0}};
+                const float above = part > 0 ? found.taken : 0;
+                *to = (wo_highlight){x, y, found.v, found.reach, packed, {0}};
                 for (int k = 0; k < 3; k++) {
                     to->c[k] = (float)(part * above) * sheet->c[at][k];
                     sheet->c[at][k] -= above * sheet->c[at][k];
@@ -263,9 +322,9 @@ static bool nothing_between(const wo_stack *stack, int32_t x, int32_t y, const w
 {
     const wo_rect r = {x < h->x ? x : h->x, y < h->y ? y : h->y, (x > h->x ? x : h->x) + 1,
                        (y > h->y ? y : h->y) + 1};
-    bool gaps = false;
+    unsigned flags = 0;
     for (int s = 0; s < stack->sheets; s++)
-        if (wo_stack_bounds(stack, s, r, &gaps).v_max > hides_from(h, s, px_per_dioptre))
+        if (wo_stack_bounds(stack, s, r, &flags).v_max > hides_from(h, s, px_per_dioptre))
             return false;
     return true;
 }
@@ -278,7 +337,7 @@ int64_t wo_highlights_add(const wo_highlights *highlights, const wo_stack *stack
     if (highlights->count == 0)
         return 0;
     const float px_per_dioptre = (float)lens->px_per_dioptre;
-    const int32_t reach = (int32_t)ceilf(highlights->reach);
+    const int32_t reach = extent_of(highlights->reach);
     const wo_rect grown = wo_rect_grow(tile, reach, reach);
     const wo_rect tiles = wo_rect_intersect(highlights->tiles,
                                             (wo_rect){floor_div(grown.x1, WO_TILE_WIDTH),
@@ -292,14 +351,14 @@ int64_t wo_highlights_add(const wo_highlights *highlights, const wo_stack *stack
         const size_t to = highlights->first[row + (size_t)(tiles.x2 - highlights->tiles.x1)];
         for (size_t i = from; i < to; i++) {
             const wo_highlight *h = &highlights->list[i];
-            const int32_t r = (int32_t)ceilf(h->reach);
+            const int32_t r = extent_of(h->reach);
             const wo_rect disc =
                 wo_rect_intersect(tile, (wo_rect){h->x - r, h->y - r, h->x + r + 1, h->y + r + 1});
             for (int32_t y = disc.y1; y < disc.y2; y++) {
                 for (int32_t x = disc.x1; x < disc.x2; x++) {
                     double line[4];
                     const double density =
-                        lens->connect(lens->self, h->x - x, h->y - y, h->v, line);
+                        density_at(lens, h->x - x, h->y - y, h->v, h->reach, line);
                     if (!(density > 0))
                         continue;
                     rays++;

@@ -10,8 +10,11 @@
    edges of their discs. The part of their light above WO_HIGHLIGHT_LEVEL is taken out of the sheets
    and joined to each output pixel by the one ray that connects them, if nothing is in between: no
    noise, exact energy. (Sampling the lights in place of the lens, as path tracers do.) */
-#define WO_HIGHLIGHT_LEVEL  4.0f /* scene-linear; 1 is diffuse white */
-#define WO_HIGHLIGHT_RADIUS 2.0  /* px; smaller blur is left to the rays */
+#define WO_HIGHLIGHT_LEVEL 4.0f /* scene-linear; 1 is diffuse white */
+/* px of blur: smaller is left to the rays, and from WHOLE on no light above the level is; between,
+   a part that rises smoothly. */
+#define WO_HIGHLIGHT_FROM  1.0
+#define WO_HIGHLIGHT_WHOLE 2.5
 #define WO_HIGHLIGHT_CROWD                                                                         \
     (2.0 / 3) /* of the pixels of 3 x 3 tiles: more are an area, not points */
 

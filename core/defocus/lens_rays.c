@@ -2,6 +2,8 @@
 /* Copyright the WideOpen authors */
 #include "defocus/lens_rays.h"
 
+#include "optics/pencil_tilt.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -25,41 +27,110 @@ static wo_rect tile_rect(int32_t tx, int32_t ty)
                      (ty + 1) * WO_TILE_HEIGHT};
 }
 
+bool wo_lens_rays_blocks(const wo_lens_rays *rays, int sheet, wo_rect r, float *v_min)
+{
+    unsigned flags = 0;
+    const wo_bounds bounds = wo_stack_bounds(rays->stack, sheet, r, &flags);
+    *v_min = bounds.v_min;
+    return !(flags & (WO_CELL_GAPS | WO_CELL_OPEN)) &&
+           wo_stack_step(rays->stack, sheet, r) <= rays->v_step;
+}
+
+static wo_rect reached(wo_rect rect, double reach)
+{
+    const int32_t grow = (int32_t)ceil(reach) + WO_RAYS_MARGIN;
+    return wo_rect_grow(rect, grow, grow);
+}
+
+/* A tile on its way to a class. */
+typedef struct survey {
+    wo_rect rect;
+    double reach[WO_SHEETS_MAX]; /* px */
+    unsigned flags[WO_SHEETS_MAX];
+    bool closed; /* no ray gets through */
+} survey;
+
 /* Bounds narrow the reach, the reach narrows the bounds, for each sheet by itself (Lee et al. 2010,
    "Bounding the Footprint": three rounds are enough). */
-static wo_ray_tile classify(const wo_lens_rays *rays, int32_t tx, int32_t ty, double max_reach)
+static void find_bounds(const wo_lens_rays *rays, double max_reach, survey *found,
+                        wo_ray_tile *tile)
 {
     const wo_lens *lens = rays->lens;
-    const wo_rect rect = tile_rect(tx, ty);
-    wo_ray_tile tile = {.class = WO_TILE_EMPTY, .v_near = -INFINITY};
-    int sheets = 0;
-    bool gaps = false;
-    double spread = 0;
     for (int s = 0; s < rays->stack->sheets; s++) {
-        double reach = max_reach;
-        wo_bounds *bounds = &tile.bounds[s];
+        wo_bounds *const bounds = &tile->bounds[s];
+        double *const reach = &found->reach[s];
+        *reach = max_reach;
         for (int round = 0; round < 3; round++) {
-            const int32_t grow = (int32_t)ceil(reach) + WO_RAYS_MARGIN;
-            bool gap = false;
-            *bounds = wo_stack_bounds(rays->stack, s, wo_rect_grow(rect, grow, grow), &gap);
+            found->flags[s] = 0;
+            *bounds =
+                wo_stack_bounds(rays->stack, s, reached(found->rect, *reach), &found->flags[s]);
             if (bounds->v_min > bounds->v_max)
                 break;
-            gaps = gap;
-            reach = fmin(reach, lens->reach(lens->self, bounds->v_min, bounds->v_max));
+            *reach = fmin(*reach, lens->reach(lens->self, bounds->v_min, bounds->v_max));
         }
-        if (bounds->v_min > bounds->v_max)
+        if (bounds->v_min <= bounds->v_max)
+            tile->footprint = fmaxf(tile->footprint, (float)*reach);
+    }
+}
+
+/* Takes what lies behind a surface that stops every ray. A surface that blocks is met at the latest
+   where it is met, and nothing farther before: steps are in the order of vergence. */
+static void cut_hidden(const wo_lens_rays *rays, survey *found, wo_ray_tile *tile)
+{
+    float cut = -INFINITY;
+    for (int s = 0; s < rays->stack->sheets; s++) {
+        float v_min;
+        if (tile->bounds[s].v_min <= tile->bounds[s].v_max &&
+            wo_lens_rays_blocks(rays, s, reached(found->rect, found->reach[s]), &v_min))
+            cut = fmaxf(cut, v_min);
+    }
+    found->closed = cut > -INFINITY;
+    for (int s = 0; s < rays->stack->sheets; s++) {
+        wo_bounds *const bounds = &tile->bounds[s];
+        if (bounds->v_min > bounds->v_max || bounds->v_min >= cut)
+            continue;
+        if (bounds->v_max < cut) {
+            *bounds = (wo_bounds){INFINITY, -INFINITY};
+            tile->hidden++;
+            continue;
+        }
+        bounds->v_min = cut;
+        found->reach[s] = fmin(found->reach[s],
+                               rays->lens->reach(rays->lens->self, bounds->v_min, bounds->v_max));
+    }
+}
+
+static wo_ray_tile classify(const wo_lens_rays *rays, int32_t tx, int32_t ty, double max_reach,
+                            unsigned leave_out)
+{
+    wo_ray_tile tile = {.class = WO_TILE_EMPTY, .v_near = -INFINITY};
+    survey found = {.rect = tile_rect(tx, ty)};
+    find_bounds(rays, max_reach, &found, &tile);
+    if (leave_out & WO_LEAVE_OUT_HIDDEN)
+        cut_hidden(rays, &found, &tile);
+    int sheets = 0;
+    bool gaps = false;
+    bool black = found.closed;
+    double spread = 0;
+    for (int s = 0; s < rays->stack->sheets; s++) {
+        const wo_bounds bounds = tile.bounds[s];
+        if (bounds.v_min > bounds.v_max)
             continue;
         sheets++;
-        spread = lens->px_per_dioptre * ((double)bounds->v_max - bounds->v_min);
-        tile.reach = fmaxf(tile.reach, (float)reach);
-        tile.v_near = fmaxf(tile.v_near, bounds->v_max);
+        gaps |= (found.flags[s] & WO_CELL_GAPS) != 0;
+        black &= !(found.flags[s] & WO_CELL_LIT) && !rays->stack->guessed[s];
+        spread = rays->lens->px_per_dioptre * ((double)bounds.v_max - bounds.v_min);
+        tile.reach = fmaxf(tile.reach, (float)found.reach[s]);
+        tile.v_near = fmaxf(tile.v_near, bounds.v_max);
     }
     if (sheets == 0)
         return tile;
     tile.class = WO_TILE_MARCH;
-    if (tile.reach < WO_SHARP_PX)
+    if (tile.reach < WO_SHARP_PX && (leave_out & WO_LEAVE_OUT_SHARP))
         tile.class = WO_TILE_SHARP;
-    else if (sheets == 1 && !gaps && spread < WO_SINGLE_PX)
+    else if (black && (leave_out & WO_LEAVE_OUT_BLACK))
+        tile.class = WO_TILE_BLACK;
+    else if (sheets == 1 && !gaps && spread < WO_SINGLE_PX && (leave_out & WO_LEAVE_OUT_SINGLE))
         tile.class = WO_TILE_SINGLE;
     return tile;
 }
@@ -67,6 +138,7 @@ static wo_ray_tile classify(const wo_lens_rays *rays, int32_t tx, int32_t ty, do
 typedef struct classify_job {
     wo_lens_rays *rays;
     double reach;
+    unsigned leave_out;
 } classify_job;
 
 static void classify_row(void *user, size_t index, unsigned worker)
@@ -77,22 +149,25 @@ static void classify_row(void *user, size_t index, unsigned worker)
     const size_t columns = (size_t)wo_rect_width(tiles);
     for (size_t i = 0; i < columns; i++)
         job->rays->tile[index * columns + i] =
-            classify(job->rays, tiles.x1 + (int32_t)i, tiles.y1 + (int32_t)index, job->reach);
+            classify(job->rays, tiles.x1 + (int32_t)i, tiles.y1 + (int32_t)index, job->reach,
+                     job->leave_out);
 }
 
 wo_status wo_lens_rays_create(const wo_context *context, const wo_stack *stack, const wo_lens *lens,
-                              wo_rect window, double max_reach, wo_lens_rays *rays, wo_error *error)
+                              wo_rect window, double max_reach, unsigned leave_out,
+                              wo_lens_rays *rays, wo_error *error)
 {
     *rays = (wo_lens_rays){.stack = stack,
                            .lens = lens,
                            .kernels = wo_march_choose(wo_cpu_detect(context->cpu)),
-                           .tiles = wo_tiles_of(window)};
+                           .tiles = wo_tiles_of(window),
+                           .v_step = (float)(0.999 * WO_CONNECT_PX / wo_lens_slope(lens))};
     const size_t rows = (size_t)wo_rect_height(rays->tiles);
     rays->tile =
         wo_new(context, error, (size_t)wo_rect_width(rays->tiles) * rows, sizeof *rays->tile);
     if (!rays->tile)
         return WO_ERR_NOMEM;
-    classify_job job = {rays, max_reach};
+    classify_job job = {rays, max_reach, leave_out};
     wo_run(context, classify_row, &job, rows);
     return WO_OK;
 }
@@ -226,7 +301,7 @@ bool wo_tile_work_vector(wo_tile_work *work, const wo_lens *lens, unsigned pass,
     const wo_rect area = work->rays->stack->area;
     const int32_t x = work->rect.x1 - area.x1;
     const int32_t y = work->rect.y1 + row - area.y1;
-    const bool sharp = work->tile->class == WO_TILE_SHARP;
+    const bool straight = wo_ray_tile_straight(work->tile);
     wo_march_function *kernel = work->tile->class == WO_TILE_SINGLE ? kernels->single
                                 : isfinite(work->view.v_apart)      ? kernels->march_apart
                                                                     : kernels->march;
@@ -235,9 +310,9 @@ bool wo_tile_work_vector(wo_tile_work *work, const wo_lens *lens, unsigned pass,
                            (uint32_t)(work->rect.y1 + row) * 0x85ebca77u + 0x2545f491u * pass;
     const uint32_t set = wo_hash(wo_hash(where) + 0x3c6ef372u * (uint32_t)run_index);
     halves[0] = halves[1] = (wo_march_sums){0};
-    if (sharp) {
-        const wo_pencil straight = {.count = 1, .ax = zero, .ay = zero, .bx = zero, .by = zero};
-        kernels->march(&work->view, x, y, run_index, &straight, &halves[1]);
+    if (straight) {
+        const wo_pencil ray = {.count = 1, .ax = zero, .ay = zero, .bx = zero, .by = zero};
+        kernel(&work->view, x, y, run_index, &ray, &halves[1]);
         return !wo_aborted(work->context);
     }
     const int half = lens->half;
@@ -272,7 +347,7 @@ bool wo_lens_rays_tile(const wo_lens_rays *rays, const wo_context *context, int3
     report->tiles[work.tile->class]++;
     if (work.tile->class == WO_TILE_EMPTY)
         return true;
-    const int count = work.tile->class == WO_TILE_SHARP ? 1 : rays->lens->count;
+    const int count = wo_ray_tile_straight(work.tile) ? 1 : rays->lens->count;
     for (int32_t row = 0; row < WO_TILE_HEIGHT; row++) {
         for (int run_index = 0; run_index < WO_PHASES; run_index++) {
             wo_march_sums halves[2];

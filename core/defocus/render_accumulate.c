@@ -116,10 +116,11 @@ static bool accumulate_tile(void *user, int32_t tx, int32_t ty, unsigned index,
     const wo_accumulate *all = &job->all;
     const wo_defocus *scene = all->scene;
     wo_accumulator *worker = &job->worker[index];
-    const wo_tile_class class = wo_lens_rays_at(scene->rays, tx, ty)->class;
+    const wo_ray_tile *tile = wo_lens_rays_at(scene->rays, tx, ty);
+    const bool straight = wo_ray_tile_straight(tile);
     double square[BLOCKS] = {0};
-    if (class == WO_TILE_EMPTY || class == WO_TILE_SHARP) {
-        tell(facts, class == WO_TILE_SHARP ? 1 : 0, square);
+    if (tile->class == WO_TILE_EMPTY || straight) {
+        tell(facts, straight ? 1 : 0, square);
         return wo_lens_rays_tile(scene->rays, scene->context, tx, ty, pixels, part);
     }
     int rays;
@@ -133,7 +134,7 @@ static bool accumulate_tile(void *user, int32_t tx, int32_t ty, unsigned index,
     store(scene, worker, tx, ty, light, pixels);
     wo_tile_highlights(scene, tx, ty, pixels, part);
     tell(facts, (float)rays, square);
-    part->tiles[class]++;
+    part->tiles[tile->class]++;
     part->rays += (int64_t)rays * WO_TILE_WIDTH * WO_TILE_HEIGHT;
     part->steps += worker->writes;
     return true;

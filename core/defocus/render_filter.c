@@ -58,7 +58,7 @@ typedef struct tile_job {
 
 static int32_t reach_of(const wo_ray_tile *tile)
 {
-    return (int32_t)ceilf(tile->reach) + BEYOND;
+    return (int32_t)ceilf(tile->footprint) + BEYOND;
 }
 
 static void widen(side *s, float least, float most)
@@ -302,13 +302,13 @@ static bool gather_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_
     const wo_defocus *scene = job->scene;
     const wo_ray_tile *tile = wo_lens_rays_at(scene->rays, tx, ty);
     memset(facts, 0, sizeof *facts);
-    const bool plain = tile->class == WO_TILE_EMPTY || tile->class == WO_TILE_SHARP;
+    const bool plain = tile->class == WO_TILE_EMPTY || wo_ray_tile_straight(tile);
     const wo_filter_shape *shape =
         plain ? NULL : wo_filter_shape_at(&job->filter, tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT);
     if (plain || shape->rest > REST_MAX) {
-        const float rays = tile->class == WO_TILE_EMPTY   ? 0
-                           : tile->class == WO_TILE_SHARP ? 1
-                                                          : (float)scene->lens->count;
+        const float rays = tile->class == WO_TILE_EMPTY ? 0
+                           : wo_ray_tile_straight(tile) ? 1
+                                                        : (float)scene->lens->count;
         for (int i = 0; i < WO_TILE_WIDTH * WO_TILE_HEIGHT; i++)
             facts->rays[i / WO_TILE_WIDTH][i % WO_TILE_WIDTH] = rays;
         return wo_lens_rays_tile(scene->rays, scene->context, tx, ty, pixels, part);
@@ -431,7 +431,7 @@ static wo_rect seen_area(const filter_job *job)
             const int32_t reach = reach_of(tile);
             const wo_rect rect = {tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT, (tx + 1) * WO_TILE_WIDTH,
                                   (ty + 1) * WO_TILE_HEIGHT};
-            if (tile->class != WO_TILE_EMPTY && tile->class != WO_TILE_SHARP)
+            if (tile->class != WO_TILE_EMPTY && !wo_ray_tile_straight(tile))
                 area = wo_rect_union(area, wo_rect_grow(rect, reach, reach));
         }
     }

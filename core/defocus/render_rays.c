@@ -93,7 +93,7 @@ static bool rays_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_ti
             }
         }
     }
-    if (work.tile->class != WO_TILE_SHARP) {
+    if (!wo_ray_tile_straight(work.tile)) {
         error_of(&map, &work, &sums);
         put_errors(&map, facts);
     }

@@ -43,8 +43,8 @@ static wo_status render(const wo_defocus *scene, const wo_frame *frame, wo_repor
         return WO_ERR_NOMEM;
     wo_ray_tile all = {.class = WO_TILE_MARCH, .v_near = -INFINITY};
     for (int s = 0; s < scene->stack->sheets; s++) {
-        bool gaps = false;
-        all.bounds[s] = wo_stack_bounds(scene->stack, s, scene->stack->area, &gaps);
+        unsigned flags = 0;
+        all.bounds[s] = wo_stack_bounds(scene->stack, s, scene->stack->area, &flags);
         all.v_near = fmaxf(all.v_near, all.bounds[s].v_max);
     }
     if (scene->stack->sheets == 0)

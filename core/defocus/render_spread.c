@@ -380,8 +380,9 @@ static bool active(const spread_job *job, int32_t tx, int32_t ty)
     const wo_rect tiles = frame->tiles;
     const size_t index =
         (size_t)(ty - tiles.y1) * (size_t)wo_rect_width(tiles) + (size_t)(tx - tiles.x1);
-    const wo_tile_class class = wo_lens_rays_at(job->scene->rays, tx, ty)->class;
-    return class != WO_TILE_EMPTY && class != WO_TILE_SHARP && !(frame->skip && frame->skip[index]);
+    const wo_ray_tile *tile = wo_lens_rays_at(job->scene->rays, tx, ty);
+    return tile->class != WO_TILE_EMPTY && !wo_ray_tile_straight(tile) &&
+           !(frame->skip && frame->skip[index]);
 }
 
 /* Tiles between others that are cheaper made than left out. */
@@ -424,7 +425,7 @@ static bool finish_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_
     const wo_defocus *scene = job->scene;
     const wo_frame *frame = job->frame;
     const bool made = active(job, tx, ty);
-    const wo_tile_class class = wo_lens_rays_at(scene->rays, tx, ty)->class;
+    const wo_ray_tile *tile = wo_lens_rays_at(scene->rays, tx, ty);
     if (wo_aborted(scene->context))
         return false;
     if (made) {
@@ -433,7 +434,7 @@ static bool finish_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_
         const wo_rect r = wo_rect_intersect(
             frame->window, (wo_rect){left, low, left + WO_TILE_WIDTH, low + WO_TILE_HEIGHT});
         memset(pixels, 0, sizeof *pixels);
-        part->tiles[class]++;
+        part->tiles[tile->class]++;
         for (int32_t y = r.y1; y < r.y2; y++) {
             const size_t at =
                 (size_t)(y - frame->window.y1) * (size_t)wo_rect_width(frame->window) +
@@ -449,7 +450,7 @@ static bool finish_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_
     wo_tile_highlights(scene, tx, ty, pixels, part);
     for (int32_t y = 0; y < WO_TILE_HEIGHT; y++) {
         for (int32_t x = 0; x < WO_TILE_WIDTH; x++) {
-            facts->rays[y][x] = class == WO_TILE_SHARP ? 1 : 0;
+            facts->rays[y][x] = wo_ray_tile_straight(tile) ? 1 : 0;
             facts->error[y][x] = made ? NAN : 0;
         }
     }

@@ -73,8 +73,8 @@ static void run_tile(void *user, size_t index, unsigned worker)
     if (!frame->skip || !frame->skip[index]) {
         wo_tile_pixels pixels;
         wo_tile_facts facts;
-        const wo_tile_class class = wo_lens_rays_at(job->scene->rays, tx, ty)->class;
-        const float mask = class == WO_TILE_EMPTY || class == WO_TILE_SHARP ? 0 : 1;
+        const wo_ray_tile *tile = wo_lens_rays_at(job->scene->rays, tx, ty);
+        const float mask = tile->class == WO_TILE_EMPTY || wo_ray_tile_straight(tile) ? 0 : 1;
         for (int32_t i = 0; i < WO_TILE_HEIGHT * WO_TILE_WIDTH; i++)
             facts.mask[i / WO_TILE_WIDTH][i % WO_TILE_WIDTH] = mask;
         if (!job->function(job->user, tx, ty, worker, &pixels, &facts, &job->parts[worker])) {

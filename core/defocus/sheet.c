@@ -7,8 +7,6 @@
 
 /* A surface farther than this counts as "no depth" where an edge needs a neighbour's. */
 #define V_NONE 1e-6
-/* More light than there is anywhere; sums over all rays of a pixel stay finite. */
-#define COLOUR_MAX 1e30f
 
 wo_status wo_sheet_create(const wo_context *context, wo_rect area, wo_sheet *sheet, wo_error *error)
 {
@@ -59,8 +57,8 @@ int wo_read_colour(const wo_image *image, wo_alpha alpha, int32_t x, int32_t y, 
         if (!isfinite(c[i])) {
             c[i] = 0;
             sanitised++;
-        } else if (fabsf(c[i]) > COLOUR_MAX) {
-            c[i] = copysignf(COLOUR_MAX, c[i]);
+        } else if (fabsf(c[i]) > WO_COLOUR_MAX) {
+            c[i] = copysignf(WO_COLOUR_MAX, c[i]);
             sanitised++;
         }
     }

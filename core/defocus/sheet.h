@@ -56,8 +56,11 @@ WO_NODISCARD wo_status wo_sheet_load(const wo_context *context, const wo_sheet_s
                                      wo_rect counted, wo_sheet *sheet, wo_sheet_counts *counts,
                                      wo_error *error);
 
+/* More light than there is anywhere; sums over all rays of a pixel stay finite. */
+#define WO_COLOUR_MAX 1e30f
+
 /* Colour of one pixel: premultiplied, finite, coverage 0..1; outside the bounds the nearest pixel.
-   Returns how many samples were not finite, or cut to what sums can hold (1e30). */
+   Returns how many samples were not finite, or cut to WO_COLOUR_MAX. */
 int wo_read_colour(const wo_image *image, wo_alpha alpha, int32_t x, int32_t y, float c[4]);
 
 /* Vergence of one pixel of a layer, 0 with *valid = false where there is none; outside the bounds

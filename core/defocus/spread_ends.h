@@ -12,8 +12,8 @@
 wo_rect wo_spread_footprint(const wo_defocus *scene, int32_t tx, int32_t ty);
 
 /* For each of tiles (in units of tiles) the nearest bucket behind which nothing is seen from it:
-   one surface, opaque and without gaps or steps of more than WO_CONNECT_PX, fills its footprint, so
-   that every ray is stopped there. INT32_MAX where there is none. Freed with wo_delete. */
+   one surface blocks every ray (wo_lens_rays_blocks). INT32_MAX where there is none. Freed with
+   wo_delete. */
 WO_NODISCARD wo_status wo_spread_ends_create(const wo_defocus *scene, const wo_spread_light *light,
                                              wo_rect tiles, int32_t **ends, wo_error *error);
 

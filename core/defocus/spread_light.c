@@ -344,8 +344,8 @@ static wo_status survey(light_job *job, wo_error *error)
     const bool zoned = !lens->connect;
     wo_bounds all = {INFINITY, -INFINITY};
     for (int s = 0; s < stack->sheets; s++) {
-        bool gaps = false;
-        const wo_bounds bounds = wo_stack_bounds(stack, s, light->rect, &gaps);
+        unsigned flags = 0;
+        const wo_bounds bounds = wo_stack_bounds(stack, s, light->rect, &flags);
         all.v_min = fminf(all.v_min, bounds.v_min);
         all.v_max = fmaxf(all.v_max, bounds.v_max);
     }

@@ -64,37 +64,67 @@ static void pack_row(void *user, size_t index, unsigned worker)
     }
 }
 
-static float vergence_at(const wo_stack *stack, int s, int32_t x, int32_t y)
+static int32_t inside(int32_t x, int32_t low, int32_t high)
 {
-    const wo_rect a = stack->area;
-    x = x < a.x1 ? a.x1 : x >= a.x2 ? a.x2 - 1 : x;
-    y = y < a.y1 ? a.y1 : y >= a.y2 ? a.y2 - 1 : y;
-    return stack->v[s][wo_stack_at(stack, x, y)];
+    return x < low ? low : x >= high ? high - 1 : x;
 }
 
-/* Bounds of one cell; its range together with the ring of pixels around it. */
+/* A cell and the ring of pixels around it. */
+enum { RING = WO_CELL + 2 };
+typedef float patch[RING][RING];
+
+/* Largest difference of neighbours; infinite with a gap among them. */
+static float step_of(patch v)
+{
+    float step = 0;
+    for (int y = 0; y < RING; y++) {
+        for (int x = 0; x < RING; x++) {
+            const float here = v[y][x];
+            const float others[4] = {x + 1 < RING ? v[y][x + 1] : here,
+                                     y + 1 < RING ? v[y + 1][x] : here,
+                                     x + 1 < RING && y + 1 < RING ? v[y + 1][x + 1] : here,
+                                     x > 0 && y + 1 < RING ? v[y + 1][x - 1] : here};
+            for (int k = 0; k < 4; k++) {
+                const float d = fabsf(others[k] - here);
+                step = d <= step ? step : d;
+            }
+        }
+    }
+    return isnan(step) ? INFINITY : step;
+}
+
+/* Everything about one cell; its steps together with those to the ring around it. */
 static void bound_cell(const wo_stack *stack, int s, int32_t x1, int32_t y1, size_t cell)
 {
+    const wo_rect a = stack->area;
     wo_bounds in = {INFINITY, -INFINITY};
-    wo_bounds around = in;
-    bool gap = false;
+    unsigned flags = 0;
     bool gap_around = false;
-    for (int32_t y = y1 - 1; y <= y1 + WO_CELL; y++) {
-        for (int32_t x = x1 - 1; x <= x1 + WO_CELL; x++) {
-            const float v = vergence_at(stack, s, x, y);
-            gap_around |= isnan(v);
-            around.v_min = v < around.v_min ? v : around.v_min;
-            around.v_max = v > around.v_max ? v : around.v_max;
-            if (x < x1 || x >= x1 + WO_CELL || y < y1 || y >= y1 + WO_CELL)
+    patch v;
+    for (int32_t j = 0; j < RING; j++) {
+        for (int32_t i = 0; i < RING; i++) {
+            const ptrdiff_t at =
+                wo_stack_at(stack, inside(x1 + i - 1, a.x1, a.x2), inside(y1 + j - 1, a.y1, a.y2));
+            v[j][i] = stack->v[s][at];
+            gap_around |= isnan(v[j][i]);
+            if (i < 1 || i > WO_CELL || j < 1 || j > WO_CELL)
                 continue;
-            gap |= isnan(v);
-            in.v_min = v < in.v_min ? v : in.v_min;
-            in.v_max = v > in.v_max ? v : in.v_max;
+            if (isnan(v[j][i])) {
+                flags |= WO_CELL_GAPS;
+                continue;
+            }
+            in.v_min = v[j][i] < in.v_min ? v[j][i] : in.v_min;
+            in.v_max = v[j][i] > in.v_max ? v[j][i] : in.v_max;
+            if (!(stack->c[s][3][at] >= WO_OPAQUE))
+                flags |= WO_CELL_OPEN;
+            for (int k = 0; k < 3; k++)
+                if (stack->c[s][k][at] != 0)
+                    flags |= WO_CELL_LIT;
         }
     }
     stack->cells[s][cell] = in;
-    stack->steps[s][cell] = gap_around ? INFINITY : around.v_max - around.v_min;
-    stack->gaps[s][cell] = gap;
+    stack->steps[s][cell] = gap_around ? INFINITY : step_of(v);
+    stack->flags[s][cell] = (uint8_t)flags;
 }
 
 static void bound_row(void *user, size_t index, unsigned worker)
@@ -156,7 +186,7 @@ wo_status wo_stack_create(const wo_context *context, const wo_sheet *sheets, siz
         const size_t cells = (size_t)stack->cell_columns * (size_t)stack->cell_rows;
         stack->cell_memory = wo_new(context, error, cells * (size_t)stack->sheets,
                                     sizeof **stack->cells + sizeof **stack->spans +
-                                        sizeof **stack->steps + sizeof **stack->gaps);
+                                        sizeof **stack->steps + sizeof **stack->flags);
         stack->memory = wo_new_large(context, error, plane,
                                      ((size_t)stack->sheets * 5 + 1) * sizeof *stack->memory);
         if (!stack->memory || !stack->cell_memory) {
@@ -170,7 +200,7 @@ wo_status wo_stack_create(const wo_context *context, const wo_sheet *sheets, siz
         wo_bounds *const bounds = stack->cell_memory;
         wo_span *const spans = (wo_span *)(bounds + all);
         float *const steps = (float *)(spans + all);
-        bool *const gaps = (bool *)(steps + all);
+        uint8_t *const flags = (uint8_t *)(steps + all);
         for (int s = 0; s < stack->sheets; s++) {
             stack->v[s] = next;
             for (int k = 0; k < 4; k++)
@@ -179,7 +209,7 @@ wo_status wo_stack_create(const wo_context *context, const wo_sheet *sheets, siz
             stack->cells[s] = bounds + cells * (size_t)s;
             stack->spans[s] = spans + cells * (size_t)s;
             stack->steps[s] = steps + cells * (size_t)s;
-            stack->gaps[s] = gaps + cells * (size_t)s;
+            stack->flags[s] = flags + cells * (size_t)s;
         }
     }
     wo_run(context, pack_row, &job, h);
@@ -195,21 +225,38 @@ void wo_stack_destroy(const wo_context *context, wo_stack *stack)
     *stack = (wo_stack){0};
 }
 
-wo_bounds wo_stack_bounds(const wo_stack *stack, int sheet, wo_rect r, bool *gaps)
+/* Cells that touch r. */
+static wo_rect cells_of(const wo_stack *stack, wo_rect r)
+{
+    return (wo_rect){(r.x1 - stack->area.x1) / WO_CELL, (r.y1 - stack->area.y1) / WO_CELL,
+                     (r.x2 - 1 - stack->area.x1) / WO_CELL + 1,
+                     (r.y2 - 1 - stack->area.y1) / WO_CELL + 1};
+}
+
+wo_bounds wo_stack_bounds(const wo_stack *stack, int sheet, wo_rect r, unsigned *flags)
 {
     wo_bounds out = {INFINITY, -INFINITY};
-    const int32_t i1 = (r.x1 - stack->area.x1) / WO_CELL;
-    const int32_t j1 = (r.y1 - stack->area.y1) / WO_CELL;
-    const int32_t i2 = (r.x2 - 1 - stack->area.x1) / WO_CELL;
-    const int32_t j2 = (r.y2 - 1 - stack->area.y1) / WO_CELL;
-    for (int32_t j = j1; j <= j2; j++) {
+    const wo_rect cells = cells_of(stack, r);
+    for (int32_t j = cells.y1; j < cells.y2; j++) {
         const wo_bounds *row = stack->cells[sheet] + (ptrdiff_t)j * stack->cell_columns;
-        const bool *gap = stack->gaps[sheet] + (ptrdiff_t)j * stack->cell_columns;
-        for (int32_t i = i1; i <= i2; i++) {
+        const uint8_t *flag = stack->flags[sheet] + (ptrdiff_t)j * stack->cell_columns;
+        for (int32_t i = cells.x1; i < cells.x2; i++) {
             out.v_min = row[i].v_min < out.v_min ? row[i].v_min : out.v_min;
             out.v_max = row[i].v_max > out.v_max ? row[i].v_max : out.v_max;
-            *gaps |= gap[i];
+            *flags |= flag[i];
         }
     }
     return out;
+}
+
+float wo_stack_step(const wo_stack *stack, int sheet, wo_rect r)
+{
+    float step = 0;
+    const wo_rect cells = cells_of(stack, r);
+    for (int32_t j = cells.y1; j < cells.y2; j++) {
+        const float *row = stack->steps[sheet] + (ptrdiff_t)j * stack->cell_columns;
+        for (int32_t i = cells.x1; i < cells.x2; i++)
+            step = row[i] > step ? row[i] : step;
+    }
+    return step;
 }

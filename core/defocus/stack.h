@@ -23,6 +23,15 @@
 #define WO_SPAN_X 10
 #define WO_SPAN_Y 2
 
+/* What a sheet has somewhere in a cell. */
+enum {
+    WO_CELL_GAPS = 1, /* no surface */
+    WO_CELL_OPEN = 2, /* coverage below WO_OPAQUE */
+    WO_CELL_LIT = 4   /* a colour other than black */
+};
+/* Lets no light through that anybody could see. */
+#define WO_OPAQUE (1 - 1e-6f)
+
 /* Bounds of one sheet over some pixels; v_min > v_max when it has no surface there. */
 typedef struct wo_bounds {
     float v_min, v_max;
@@ -49,7 +58,7 @@ typedef struct wo_stack {
     wo_span *spans[WO_SHEETS_MAX];   /* [rows][columns] over the WO_SPAN_X x WO_SPAN_Y cells from
                                         here on */
     float *steps[WO_SHEETS_MAX];     /* [rows][columns] wo_span.step of one cell */
-    bool *gaps[WO_SHEETS_MAX];       /* [rows][columns] true = the sheet is empty somewhere */
+    uint8_t *flags[WO_SHEETS_MAX];   /* [rows][columns] WO_CELL_* */
     void *cell_memory;
 } wo_stack;
 
@@ -71,8 +80,12 @@ void wo_stack_destroy(const wo_context *context, wo_stack *stack);
 /* Area that wo_stack_create makes of this one. */
 wo_rect wo_stack_grid(wo_rect area);
 
-/* Bounds of a sheet over the cells that touch r, which must lie inside the area; *gaps becomes true
-   when the sheet is empty at some pixel of them. */
-wo_bounds wo_stack_bounds(const wo_stack *stack, int sheet, wo_rect r, bool *gaps);
+/* Bounds of a sheet over the cells that touch r, which must lie inside the area; the WO_CELL_* of
+   all of them are added to *flags. */
+wo_bounds wo_stack_bounds(const wo_stack *stack, int sheet, wo_rect r, unsigned *flags);
+
+/* Largest step of vergence between neighbours, diagonal ones too, of which at least one lies in the
+   same cells; infinite where the sheet is empty. */
+float wo_stack_step(const wo_stack *stack, int sheet, wo_rect r);
 
 #endif

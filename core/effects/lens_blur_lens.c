@@ -108,6 +108,10 @@ static wo_status make_table_lens(wo_plan *plan, wo_error *error)
     plan->levels = levels;
     for (int i = 0; i < levels; i++)
         plan->level[i] = wo_table_pencils_lens(plan->table[i]);
+    if (plan->facts.wavelengths < wavelengths)
+        wo_report_leave_out(&plan->report, "wavelengths",
+                            "colours part by less than a twentieth of a pixel",
+                            wavelengths - plan->facts.wavelengths, "wavelengths");
     if (plan->facts.beyond > 0)
         wo_report_leave_out(&plan->report, "lens rays", "they go farther than the largest blur",
                             100 * plan->facts.beyond, "% of those tried");

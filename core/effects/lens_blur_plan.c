@@ -46,7 +46,7 @@ static wo_status empty_sheet(const wo_context *context, wo_rect area, wo_sheet *
     return WO_OK;
 }
 
-static wo_sheet_source layer_source(const wo_plan *plan, const wo_plan_args *args, int layer)
+wo_sheet_source wo_lens_blur_layer(const wo_plan *plan, const wo_plan_args *args, int layer)
 {
     const wo_lens_blur_setup *setup = &plan->setup;
     const int clip = layer == BACKGROUND ? WO_CLIP_BACKGROUND : 2 * layer;
@@ -72,7 +72,7 @@ static wo_status load_layers(const wo_plan *plan, const wo_plan_args *args, wo_r
 {
     const wo_lens_blur_setup *setup = &plan->setup;
     for (int i = 0; i <= BACKGROUND; i++) {
-        const wo_sheet_source source = layer_source(plan, args, i);
+        const wo_sheet_source source = wo_lens_blur_layer(plan, args, i);
         const bool used = i == BACKGROUND ? setup->background_used && setup->fill_levels > 0
                                           : setup->layer_used[i];
         if (!used || !source.colour->data)
@@ -150,7 +150,7 @@ static wo_status mend_edges(wo_plan *plan, const wo_plan_args *args, int layer,
                             wo_sheet sheets[SHEETS], int64_t *split, wo_error *error)
 {
     const wo_context *context = &plan->context;
-    const wo_sheet_source source = layer_source(plan, args, layer);
+    const wo_sheet_source source = wo_lens_blur_layer(plan, args, layer);
     const double px = plan->lens.px_per_dioptre;
     wo_sheet *sheet = &sheets[layer];
     const size_t n = (size_t)wo_rect_width(sheet->area) * (size_t)wo_rect_height(sheet->area);
@@ -315,7 +315,10 @@ wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params
     if (status != WO_OK || wo_rect_empty(plan->window))
         goto done;
     status = wo_lens_blur_focus_make(&plan->params, args, &plan->setup, &plan->focus, error);
-    if (status != WO_OK || (status = wo_lens_blur_lens_make(plan, error)) != WO_OK)
+    if (status != WO_OK)
+        goto done;
+    wo_lens_blur_find_copy(plan, args);
+    if (plan->copy || (status = wo_lens_blur_lens_make(plan, error)) != WO_OK)
         goto done;
     if ((status = build_scene(plan, args, error)) != WO_OK)
         goto done;
@@ -324,8 +327,8 @@ wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params
                                  wo_rect_grow(plan->window, plan->setup.margin, plan->setup.margin),
                                  plan->setup.reach * plan->setup.tilt *
                                      fmax(1, plan->geometry.pixel_stretch),
-                                 &plan->rays, error);
-    plan->report.seconds[WO_STAGE_PLAN] = wo_seconds() - start;
+                                 WO_LEAVE_OUT_ALL, &plan->rays, error);
+    plan->report.seconds[WO_STAGE_PLAN] += wo_seconds() - start;
 done:
     if (status != WO_OK)
         wo_lens_blur_plan_destroy(&plan);

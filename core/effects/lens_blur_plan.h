@@ -36,6 +36,8 @@ struct wo_plan {
     wo_highlights highlights;
     wo_lens_rays rays;
     wo_quality quality;
+    bool copy;        /* nothing is blurred: the source is the picture; lens, stack, highlights and
+                         rays are not made */
     uint8_t *split;   /* over the window, only for the view: WO_SPLIT_* */
     wo_report report; /* of the planning; counted with the first window that is rendered */
 };
@@ -53,6 +55,18 @@ void wo_lens_blur_plan_destroy(wo_plan **plan);
    What was made before a failure is destroyed with the plan. */
 wo_status wo_lens_blur_lens_make(wo_plan *plan, wo_error *error);
 void wo_lens_blur_lens_destroy(wo_plan *plan);
+
+/* How a layer is read; layer WO_LENS_BLUR_LAYERS is the Background. */
+wo_sheet_source wo_lens_blur_layer(const wo_plan *plan, const wo_plan_args *args, int layer);
+
+/* Sets plan->copy when the one layer there is has no blur of WO_SHARP_PX anywhere; needs params,
+   geometry, setup and focus, and a window that is not empty. What it costs to find out is a look at
+   the depth, and less where there is blur. */
+void wo_lens_blur_find_copy(wo_plan *plan, const wo_plan_args *args);
+
+/* Renders such a plan; window lies inside the planned one. */
+wo_status wo_lens_blur_copy(const wo_plan *plan, wo_rect window, const wo_image *output,
+                            wo_report *report, wo_error *error);
 
 /* Seconds of a steady clock. */
 double wo_seconds(void);

@@ -60,7 +60,7 @@ int wo_lens_blur_plan_print(const wo_plan *plan, char *buffer, size_t size)
     const wo_focus *focus = &plan->focus;
     add(&p, "lens        %g mm f/%g, focus at %.6g m; blur radius %.4g px per dioptre\n",
         plan->params.focal_length, plan->params.f_stop, focus->v_axis != 0 ? 1 / focus->v_axis : 0,
-        plan->lens.px_per_dioptre);
+        plan->copy ? s->lens.k : plan->lens.px_per_dioptre);
     for (int i = 0; i < plan->report.camera_count; i++)
         add_camera(&p, &plan->report.camera[i]);
     if (focus->options.count > 0 || !focus->flat)
@@ -82,6 +82,10 @@ int wo_lens_blur_plan_print(const wo_plan *plan, char *buffer, size_t size)
             "table       degree %d, %d field points; %.4f px RMS from the exact rays; lit to %.1f "
             "degrees\n",
             f->degree, f->nodes, f->rms_px, atan(f->field_lit) * (180 / 3.14159265358979323846));
+    }
+    if (plan->copy) {
+        add(&p, "blur        none: all in focus, the source is copied\n");
+        return p.length;
     }
     add(&p, "blur        largest radius %.2f px (limit %.2f px)\n", reach, s->radius);
     add(&p,

@@ -117,6 +117,8 @@ static void write_row(void *user, size_t index, unsigned worker)
 
 static void clear_outside(const wo_image *output, wo_rect window, wo_rect inside)
 {
+    if (wo_rect_contains(inside, window))
+        return;
     for (int32_t y = window.y1; y < window.y2; y++) {
         float *to = wo_image_at(output, window.x1, y);
         for (int32_t x = window.x1; x < window.x2; x++, to += 4)
@@ -155,22 +157,31 @@ static void note_tiles(const render_job *job, wo_report *report)
 {
     const wo_plan *plan = job->plan;
     const wo_rect tiles = job->frame.tiles;
-    for (int32_t ty = tiles.y1; ty < tiles.y2; ty++)
-        for (int32_t tx = tiles.x1; tx < tiles.x2; tx++)
-            report->largest_radius =
-                fmax(report->largest_radius, (double)wo_lens_rays_at(&plan->rays, tx, ty)->reach);
+    int64_t hidden = 0;
+    for (int32_t ty = tiles.y1; ty < tiles.y2; ty++) {
+        for (int32_t tx = tiles.x1; tx < tiles.x2; tx++) {
+            const wo_ray_tile *tile = wo_lens_rays_at(&plan->rays, tx, ty);
+            report->largest_radius = fmax(report->largest_radius, (double)tile->reach);
+            hidden += tile->hidden;
+        }
+    }
     const double tile_rays = (double)plan->lens.count * WO_TILE_WIDTH * WO_TILE_HEIGHT;
+    const double others = tile_rays * (1 - 1.0 / plan->lens.count);
     if (report->tiles[WO_TILE_EMPTY] > 0)
         wo_report_leave_out(report, "rays of empty tiles", "nothing is there",
                             tile_rays * (double)report->tiles[WO_TILE_EMPTY], "rays");
     if (report->tiles[WO_TILE_SHARP] > 0 && plan->lens.count > 1)
         wo_report_leave_out(report, "rays of sharp tiles", "no blur: one ray a pixel",
-                            tile_rays * (1 - 1.0 / plan->lens.count) *
-                                (double)report->tiles[WO_TILE_SHARP],
-                            "rays");
+                            others * (double)report->tiles[WO_TILE_SHARP], "rays");
+    if (report->tiles[WO_TILE_BLACK] > 0 && plan->lens.count > 1)
+        wo_report_leave_out(report, "rays of black tiles", "they see nothing else",
+                            others * (double)report->tiles[WO_TILE_BLACK], "rays");
     if (report->tiles[WO_TILE_SINGLE] > 0)
         wo_report_leave_out(report, "marching in tiles of one depth", "one lookup a ray is exact",
                             (double)report->tiles[WO_TILE_SINGLE], "tiles");
+    if (hidden > 0)
+        wo_report_leave_out(report, "layers behind opaque surfaces", "no ray reaches them",
+                            (double)hidden, "layers of tiles");
     if (job->skipped > 0)
         wo_report_leave_out(report, "tiles outside the mask", "the source shows",
                             (double)job->skipped, "tiles");
@@ -218,6 +229,8 @@ wo_status wo_lens_blur_render(const wo_plan *plan, wo_rect window, const wo_imag
     clear_outside(output, window, inside);
     if (wo_rect_empty(inside))
         return WO_OK;
+    if (plan->copy)
+        return wo_lens_blur_copy(plan, inside, output, report, error);
     render_job job = {.plan = plan,
                       .view = &wo_views[plan->params.output],
                       .output = output,

@@ -26,6 +26,7 @@ typedef enum wo_stage {
 #define WO_TILE_CLASS_LIST(X)                                                                      \
     X(WO_TILE_EMPTY, "empty")   /* nothing there: zero */                                          \
     X(WO_TILE_SHARP, "sharp")   /* no blur: copied */                                              \
+    X(WO_TILE_BLACK, "black")   /* nothing but black is seen: copied */                            \
     X(WO_TILE_SINGLE, "single") /* one vergence: one lookup a ray */                               \
     X(WO_TILE_MARCH, "march")   /* rays march through the layers */
 

@@ -14,3 +14,7 @@ target_link_libraries(bench_pencil_map PRIVATE wo_core wo_options m)
 add_executable(bench_spread ${CMAKE_CURRENT_LIST_DIR}/bench_spread.c)
 target_compile_definitions(bench_spread PRIVATE _POSIX_C_SOURCE=200809L)
 target_link_libraries(bench_spread PRIVATE wo_test_scenes)
+
+add_executable(bench_copy ${CMAKE_CURRENT_LIST_DIR}/bench_copy.c)
+target_compile_definitions(bench_copy PRIVATE _POSIX_C_SOURCE=200809L)
+target_link_libraries(bench_copy PRIVATE wo_test_scenes)

@@ -99,8 +99,8 @@ static double measure_twin(const wo_context *context, const wo_footage *set, int
     const size_t tiles = (size_t)wo_rect_width(rays->tiles) * (size_t)wo_rect_height(rays->tiles);
     wo_bounds all[WO_SHEETS_MAX];
     for (int s = 0; s < plan->stack.sheets; s++) {
-        bool gaps = false;
-        all[s] = wo_stack_bounds(&plan->stack, s, plan->stack.area, &gaps);
+        unsigned flags = 0;
+        all[s] = wo_stack_bounds(&plan->stack, s, plan->stack.area, &flags);
     }
     rays->kernels = &wo_march_reference;
     for (size_t i = 0; i < tiles; i++) {

@@ -82,9 +82,9 @@ static void field_make(field *f, rng *r, int sheets, double radius)
                               .v_connect = (float)(WO_CONNECT_PX / f->lens.px_per_dioptre)};
     const int32_t grow = rng_unit(r) < 0.5 ? (int32_t)ceil(radius) + 3 : 64;
     for (int s = 0; s < f->stack.sheets; s++) {
-        bool gap = false;
+        unsigned flags = 0;
         const wo_rect near = wo_rect_grow((wo_rect){0, 0, WO_BLOCK, ROWS}, grow, grow);
-        const wo_bounds bounds = wo_stack_bounds(&f->stack, s, near, &gap);
+        const wo_bounds bounds = wo_stack_bounds(&f->stack, s, near, &flags);
         if (bounds.v_min > bounds.v_max)
             continue;
         const int n = f->view.sheets++;

@@ -128,23 +128,38 @@ static void packing_and_bounds(void **state)
         q.x2 = rng_int(&r, q.x1 + 1, n % 3 ? stack.area.x2 : q.x1 + 1);
         q.y2 = rng_int(&r, q.y1 + 1, n % 3 ? stack.area.y2 : q.y1 + 1);
         for (int s = 0; s < 3; s++) {
-            bool gap = false;
-            const wo_bounds bounds = wo_stack_bounds(&stack, s, q, &gap);
+            unsigned flags = 0;
+            const wo_bounds bounds = wo_stack_bounds(&stack, s, q, &flags);
             /* By hand, over the cells that touch. */
             const wo_rect a = stack.area;
             float low = INFINITY;
             float high = -INFINITY;
-            bool empty = false;
+            unsigned seen = 0;
+            float step = 0;
             for (int32_t y = q.y1 - (q.y1 - a.y1) % WO_CELL; y < q.y2 || (y - a.y1) % WO_CELL; y++)
                 for (int32_t x = q.x1 - (q.x1 - a.x1) % WO_CELL; x < q.x2 || (x - a.x1) % WO_CELL;
                      x++) {
                     const float v = stack.v[s][wo_stack_at(&stack, x, y)];
-                    empty |= isnan(v);
+                    const bool gap = isnan(v);
+                    seen |= gap ? WO_CELL_GAPS : 0;
+                    if (!gap && stack.c[s][3][wo_stack_at(&stack, x, y)] < 1)
+                        seen |= WO_CELL_OPEN;
+                    if (!gap && stack.c[s][0][wo_stack_at(&stack, x, y)] != 0)
+                        seen |= WO_CELL_LIT;
+                    for (int k = 0; k < 9; k++) {
+                        const int32_t nx = clamped(x + k % 3 - 1, a.x1, a.x2);
+                        const int32_t ny = clamped(y + k / 3 - 1, a.y1, a.y2);
+                        const float near = stack.v[s][wo_stack_at(&stack, nx, ny)];
+                        step = fabsf(v - near) <= step ? step : fabsf(v - near);
+                    }
                     low = fminf(low, v);
                     high = fmaxf(high, v);
                 }
             assert_true(bounds.v_min == low && bounds.v_max == high);
-            assert_true(gap == empty);
+            assert_int_equal(flags, seen);
+            /* Also the steps just outside may count. */
+            const float told = wo_stack_step(&stack, s, q);
+            assert_true(isnan(step) ? isinf(told) : told >= step);
         }
     }
     for (int s = 0; s < 5; s++)
@@ -197,12 +212,12 @@ static void a_gap_once_seen_stays_seen(void **state)
     wo_sheet sheet = random_sheet(area, &r, 0);
     wo_stack stack;
     assert_int_equal(wo_stack_create(&plain, &sheet, 1, opaque, area, area, &stack, NULL), WO_OK);
-    bool gap = true;
-    wo_stack_bounds(&stack, 0, area, &gap);
-    assert_true(gap);
-    gap = false;
-    wo_stack_bounds(&stack, 0, area, &gap);
-    assert_false(gap);
+    unsigned flags = WO_CELL_GAPS;
+    wo_stack_bounds(&stack, 0, area, &flags);
+    assert_true(flags & WO_CELL_GAPS);
+    flags = 0;
+    wo_stack_bounds(&stack, 0, area, &flags);
+    assert_false(flags & WO_CELL_GAPS);
     wo_sheet_destroy(&plain, &sheet);
     wo_stack_destroy(&plain, &stack);
 }
