@@ -57,8 +57,9 @@ static void field_finish(field *f, int samples)
     assert_int_equal(
         wo_stack_create(&plain, f->sheet, (size_t)f->sheets, opaque, area, area, &f->stack, NULL),
         WO_OK);
-    assert_int_equal(
-        wo_lens_rays_create(&plain, &f->stack, &f->lens, window, REACH, &f->rays, NULL), WO_OK);
+    assert_int_equal(wo_lens_rays_create(&plain, &f->stack, &f->lens, window, REACH,
+                                         WO_LEAVE_OUT_ALL, &f->rays, NULL),
+                     WO_OK);
 }
 
 static void field_unfinish(field *f)
