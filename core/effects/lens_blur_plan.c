@@ -323,11 +323,15 @@ wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params
     if ((status = build_scene(plan, args, error)) != WO_OK)
         goto done;
     const double start = wo_seconds();
+    /* Views of the method accumulate need every sheet. */
+    const unsigned leave_out = plan->params.method == WO_METHOD_ACCUMULATE
+                                   ? WO_LEAVE_OUT_ALL & ~(unsigned)WO_LEAVE_OUT_HIDDEN
+                                   : WO_LEAVE_OUT_ALL;
     status = wo_lens_rays_create(&plan->context, &plan->stack, &plan->lens,
                                  wo_rect_grow(plan->window, plan->setup.margin, plan->setup.margin),
                                  plan->setup.reach * plan->setup.tilt *
                                      fmax(1, plan->geometry.pixel_stretch),
-                                 WO_LEAVE_OUT_ALL, &plan->rays, error);
+                                 leave_out, &plan->rays, error);
     plan->report.seconds[WO_STAGE_PLAN] += wo_seconds() - start;
 done:
     if (status != WO_OK)
