@@ -160,6 +160,5 @@ static wo_status render(const wo_defocus *scene, const wo_frame *frame, wo_repor
 const wo_renderer wo_render_hybrid = {.key = "hybrid",
                                       .label = "Hybrid",
                                       .estimates = true,
-                                      .umbra = true,
                                       .margin = WO_HYBRID_MARGIN,
                                       .render = render};

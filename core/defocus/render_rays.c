@@ -109,4 +109,4 @@ static wo_status render(const wo_defocus *scene, const wo_frame *frame, wo_repor
 }
 
 const wo_renderer wo_render_rays = {
-    .key = "rays", .label = "Rays", .estimates = true, .umbra = true, .render = render};
+    .key = "rays", .label = "Rays", .estimates = true, .render = render};

@@ -48,7 +48,6 @@ typedef struct wo_renderer {
     const char *key;
     const char *label;
     bool estimates; /* its own error: frame->error is wanted always */
-    bool umbra;     /* its tiles may leave out what no ray reaches (WO_LEAVE_OUT_HIDDEN) */
     int32_t margin; /* px round the window for which scene->rays and the stack must hold tiles */
     /* Fills all of frame. report: rays, steps, tiles and omissions are added to. Takes what memory
        it needs from the context and gives it back; polls the context for an abort. */

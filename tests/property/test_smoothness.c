@@ -100,8 +100,8 @@ static void check(int method, int lights, double bar)
    a step of WO_CONNECT_PX at once; taps of the filter lie on whole pixels. */
 static const double bars[METHODS][2] = {
     [WO_METHOD_HYBRID] = {5, 2},       [WO_METHOD_RAYS] = {5, 2},
-    [WO_METHOD_FILTER] = {2.6, 17},    [WO_METHOD_SPREAD] = {2, 2.6},
-    [WO_METHOD_ACCUMULATE] = {99, 99},
+    [WO_METHOD_FILTER] = {2, 10.5},    [WO_METHOD_SPREAD] = {2, 2.6},
+    [WO_METHOD_ACCUMULATE] = {5.2, 2},
 };
 
 static void detail_blurs_smoothly(void **state)
