@@ -32,10 +32,11 @@ typedef struct share_cache {
     int count;
 } share_cache;
 
-/* Discs up to SOFT px of reach have edges cut by the area of each pixel, so that they grow
+/* The pixel of a highlight is already as soft as the picture, so large discs need no soft edge. But
+   discs up to SOFT px of reach have edges cut by the area of each pixel, so that they grow
    smoothly; from there to twice that it matters less and less, and then the middle of the pixel
    counts. */
-#define SOFT 6.0
+#define SOFT 2.0
 enum { PLACES = 8 };
 
 /* Density of rays over the pixel at the offset (dx, dy), and one of them. */
