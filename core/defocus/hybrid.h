@@ -15,7 +15,7 @@
    its own blur, its coverage too; what is behind keeps its detail and fills exactly the light that
    is left. The parts are put together once, at the end: no dark edges, nothing counted twice. */
 
-/* Blur of so many px of radius is kept apart; smoothing begins here. */
+/* Blur of more px of radius than this is kept apart. */
 #define WO_HYBRID_APART_PX 3.0
 
 /* What the rays leave of a pixel, as fractions of all light: one plane of floats each. */
@@ -47,8 +47,7 @@ typedef struct wo_hybrid_kernel {
 /* px beyond the window that must be traced: taps, and the cells around. */
 #define WO_HYBRID_MARGIN (WO_HYBRID_REACH + 2 * WO_HYBRID_CELL)
 
-/* Kernels by radius in quarters of a px: [0] is the pixel itself. Each leaves every quadratic as it
-   is. */
+/* Kernels by radius in quarters of a px, of equal weights: [0] is the pixel itself. */
 void wo_hybrid_kernels(wo_hybrid_kernel kernels[WO_HYBRID_KERNELS]);
 
 /* Of a cell of 8 x 8 px and those around it. */
@@ -67,8 +66,7 @@ typedef struct wo_hybrid {
     float *memory;
     /* Coverage is one plane for all colours if the lens does not part them. */
     float *plane[WO_HYBRID_PLANES];
-    float *rays;     /* [tiles] a pixel */
-    uint8_t *wanted; /* [tiles] */
+    float *rays; /* [tiles] a pixel */
     wo_hybrid_cell *cells;
     int32_t columns, rows; /* of cells */
     wo_rect inner; /* cells of the format's tiles: they look at no others, so that a render of

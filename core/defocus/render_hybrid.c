@@ -88,10 +88,14 @@ static bool wanted(const wo_hybrid *h, int32_t tx, int32_t ty)
     return false;
 }
 
+/* Part of the work that tracing is, for progress. */
+#define TRACED 0.9
+
 typedef struct trace_job {
     wo_hybrid *hybrid;
     wo_report *parts; /* [workers] */
     atomic_bool stop;
+    atomic_llong done;
 } trace_job;
 
 static void trace_tile(void *user, size_t index, unsigned worker)
@@ -103,8 +107,15 @@ static void trace_tile(void *user, size_t index, unsigned worker)
     const int32_t ty = h->tiles.y1 + (int32_t)(index / (size_t)columns);
     if (atomic_load_explicit(&job->stop, memory_order_relaxed) || !wanted(h, tx, ty))
         return;
-    if (!wo_hybrid_trace(h, tx, ty, &job->parts[worker]))
+    if (!wo_hybrid_trace(h, tx, ty, &job->parts[worker])) {
         atomic_store(&job->stop, true);
+        return;
+    }
+    const wo_context *context = h->scene->context;
+    const long long total = (long long)columns * wo_rect_height(h->tiles);
+    const long long done = atomic_fetch_add(&job->done, 1) + 1;
+    if (context->progress && done * 100 / total != (done - 1) * 100 / total)
+        context->progress(context->progress_user, TRACED * (double)done / (double)total);
 }
 
 static wo_status trace(wo_hybrid *h, wo_report *report, wo_error *error)
@@ -151,7 +162,7 @@ static wo_status render(const wo_defocus *scene, const wo_frame *frame, wo_repor
         status = trace(&h, report, error);
     if (status == WO_OK) {
         wo_run(scene->context, choose_row, &h, (size_t)h.rows);
-        status = wo_frame_tiles(scene, frame, 0.9, 1, join_tile, &h, report, error);
+        status = wo_frame_tiles(scene, frame, TRACED, 1, join_tile, &h, report, error);
     }
     destroy(&h);
     return status;
