@@ -14,7 +14,7 @@ wo_add_ofx_plugin(Tricks ${CMAKE_CURRENT_LIST_DIR}/plugins/tricks_plugin.c
 add_test(NAME contract.bench
     COMMAND ${CMAKE_CURRENT_LIST_DIR}/bench.sh $<TARGET_FILE:wideopen> $<TARGET_FILE:json_check>
             ${CMAKE_CURRENT_BINARY_DIR}/bench_work ${tricks_bundles})
-set_tests_properties(contract.bench PROPERTIES LABELS threads TIMEOUT 600
+set_tests_properties(contract.bench PROPERTIES TIMEOUT 600
     ENVIRONMENT "TSAN_OPTIONS=suppressions=${CMAKE_CURRENT_LIST_DIR}/cli_tsan.supp")
 
 # The camera of a file's metadata, from the file to the plugin.
@@ -24,5 +24,5 @@ target_link_libraries(exr_tag PRIVATE wo_bridge wo_base wo_options m)
 add_test(NAME contract.camera
     COMMAND ${CMAKE_CURRENT_LIST_DIR}/camera.sh $<TARGET_FILE:wideopen> $<TARGET_FILE:exr_tag>
             ${CMAKE_CURRENT_BINARY_DIR}/camera_work)
-set_tests_properties(contract.camera PROPERTIES LABELS threads TIMEOUT 600
+set_tests_properties(contract.camera PROPERTIES TIMEOUT 600
     ENVIRONMENT "TSAN_OPTIONS=suppressions=${CMAKE_CURRENT_LIST_DIR}/cli_tsan.supp")

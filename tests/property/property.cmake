@@ -16,7 +16,7 @@ foreach(name IN ITEMS filter_image focus_control invariance knobs layout leave_o
     add_test(NAME property.${name} COMMAND test_${name})
     set_tests_properties(property.${name} PROPERTIES TIMEOUT 300)
 endforeach()
-set_tests_properties(property.layout PROPERTIES LABELS threads)
+set_tests_properties(property.layout PROPERTIES LABELS threads TIMEOUT 1200)
 
 # The same of every method, over the footage too.
 add_executable(test_coverage ${property_dir}/test_coverage.c)

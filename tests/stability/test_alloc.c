@@ -165,7 +165,7 @@ static void stopped_at_every_poll(void **state)
         s.params.samples = s.params.method == WO_METHOD_REFERENCE ? 1 : 4;
         wo_image want = scene_render(&s, NULL);
         long polls = 1;
-        for (long n = 0; n <= polls; n += 1 + polls / 16) {
+        for (long n = 0; n <= polls; n += 1 + polls / 8) {
             bank b;
             stopper stop = {.stop_at = n == 0 ? 1000000 : n - 1};
             wo_context context = context_of(&b, -1);
