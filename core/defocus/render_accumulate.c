@@ -38,20 +38,6 @@ static double noise_of(const wo_accumulator *worker, double square[BLOCKS])
     return all;
 }
 
-/* Colour straight through the pixel, where no ray of some colour saw anything. */
-static void straight_through(const wo_stack *stack, int32_t x, int32_t y, float c[4])
-{
-    const ptrdiff_t at = wo_stack_at(stack, x, y);
-    float best = -INFINITY;
-    for (int s = 0; s < stack->sheets; s++) {
-        if (!(stack->v[s][at] > best))
-            continue;
-        best = stack->v[s][at];
-        for (int k = 0; k < 4; k++)
-            c[k] = stack->c[s][k][at];
-    }
-}
-
 static void store(const wo_defocus *scene, const wo_accumulator *worker, int32_t tx, int32_t ty,
                   double light, wo_tile_pixels *pixels)
 {
@@ -61,8 +47,8 @@ static void store(const wo_defocus *scene, const wo_accumulator *worker, int32_t
             float guessed;
             if (!wo_accumulate_mean(worker, 2, x, y, c, &guessed)) {
                 float through[4] = {0};
-                straight_through(scene->stack, tx * WO_TILE_WIDTH + x, ty * WO_TILE_HEIGHT + y,
-                                 through);
+                wo_stack_straight(scene->stack, tx * WO_TILE_WIDTH + x, ty * WO_TILE_HEIGHT + y,
+                                  through);
                 for (int k = 0; k < 4; k++)
                     c[k] = c[k] != 0 ? c[k] : through[k];
             }

@@ -273,20 +273,6 @@ static double holes_behind(const spread_job *job, const wo_point_spread *spread,
     return fmin(fmax(clear, 0), 1);
 }
 
-/* Colour straight through a pixel that saw nothing. */
-static void straight_through(const wo_stack *stack, int32_t x, int32_t y, float c[4])
-{
-    const ptrdiff_t at = wo_stack_at(stack, x, y);
-    float best = -INFINITY;
-    for (int s = 0; s < stack->sheets; s++) {
-        if (!(stack->v[s][at] > best))
-            continue;
-        best = stack->v[s][at];
-        for (int k = 0; k < 4; k++)
-            c[k] = stack->c[s][k][at];
-    }
-}
-
 static void start_row(const spread_job *job, const row_room *room, wo_span_x s, int32_t y)
 {
     int32_t tx = INT32_MIN;
@@ -324,7 +310,7 @@ static void finish_pixel(const spread_job *job, const pixel *p, const wo_point_s
     }
     frame->guessed[at] = 1;
     if (lost) {
-        straight_through(job->scene->stack, x, y, c);
+        wo_stack_straight(job->scene->stack, x, y, c);
         return;
     }
     for (int k = 0; k < 3; k++)

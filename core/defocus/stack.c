@@ -260,3 +260,16 @@ float wo_stack_step(const wo_stack *stack, int sheet, wo_rect r)
     }
     return step;
 }
+
+void wo_stack_straight(const wo_stack *stack, int32_t x, int32_t y, float c[4])
+{
+    const ptrdiff_t at = wo_stack_at(stack, x, y);
+    float best = -INFINITY;
+    for (int s = 0; s < stack->sheets; s++) {
+        if (!(stack->v[s][at] > best))
+            continue;
+        best = stack->v[s][at];
+        for (int k = 0; k < 4; k++)
+            c[k] = stack->c[s][k][at];
+    }
+}

@@ -88,4 +88,8 @@ wo_bounds wo_stack_bounds(const wo_stack *stack, int sheet, wo_rect r, unsigned 
    same cells; infinite where the sheet is empty. */
 float wo_stack_step(const wo_stack *stack, int sheet, wo_rect r);
 
+/* Colour of the nearest surface straight through a pixel, for one whose light was all lost. c stays
+   as it is where there is none. */
+void wo_stack_straight(const wo_stack *stack, int32_t x, int32_t y, float c[4]);
+
 #endif
