@@ -29,6 +29,32 @@ void wo_sheet_destroy(const wo_context *context, wo_sheet *sheet)
     *sheet = (wo_sheet){0};
 }
 
+bool wo_sheet_range(const wo_sheet *sheet, float *v_min, float *v_max)
+{
+    enum { LANES = 16 };
+    const size_t n = (size_t)wo_rect_width(sheet->area) * (size_t)wo_rect_height(sheet->area);
+    float low[LANES];
+    float high[LANES];
+    for (size_t k = 0; k < LANES; k++) {
+        low[k] = INFINITY;
+        high[k] = -INFINITY;
+    }
+    for (size_t i = 0; i < n; i += LANES) {
+        const size_t lanes = n - i < LANES ? n - i : LANES;
+        for (size_t k = 0; k < lanes; k++) {
+            low[k] = sheet->v[i + k] < low[k] ? sheet->v[i + k] : low[k];
+            high[k] = sheet->v[i + k] > high[k] ? sheet->v[i + k] : high[k];
+        }
+    }
+    *v_min = low[0];
+    *v_max = high[0];
+    for (size_t k = 1; k < LANES; k++) {
+        *v_min = low[k] < *v_min ? low[k] : *v_min;
+        *v_max = high[k] > *v_max ? high[k] : *v_max;
+    }
+    return *v_min <= *v_max;
+}
+
 typedef struct load_job {
     const wo_sheet_source *source;
     wo_rect counted;

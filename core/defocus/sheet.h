@@ -24,6 +24,9 @@ WO_NODISCARD wo_status wo_sheet_create(const wo_context *context, wo_rect area, 
                                        wo_error *error);
 void wo_sheet_destroy(const wo_context *context, wo_sheet *sheet);
 
+/* Nearest and farthest of its surfaces; false when it has none. */
+bool wo_sheet_range(const wo_sheet *sheet, float *v_min, float *v_max);
+
 /* How a layer's images become a sheet. */
 typedef struct wo_sheet_source {
     const wo_image *colour;

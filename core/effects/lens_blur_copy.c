@@ -119,7 +119,7 @@ void wo_lens_blur_find_copy(wo_plan *plan, const wo_plan_args *args)
 {
     const wo_lens_blur_setup *setup = &plan->setup;
     const wo_lens_blur_params *params = &plan->params;
-    const wo_lens_blur_areas areas = wo_lens_blur_plan_areas(setup, &plan->geometry, plan->window);
+    const wo_rect seen = wo_lens_blur_stack_area(setup, plan->window, setup->reach);
     if (params->output != WO_OUTPUT_IMAGE || params->method == WO_METHOD_REFERENCE ||
         setup->layers != 1 || wo_lens_blur_has_table(params) ||
         !wo_lens_blur_focus_is_plain(params, setup->focus_map) || !plan->focus.flat)
@@ -128,7 +128,7 @@ void wo_lens_blur_find_copy(wo_plan *plan, const wo_plan_args *args)
         .plan = plan,
         .source = wo_lens_blur_layer(plan, args, 0),
         .px = setup->lens.k * fmax(1, plan->geometry.pixel_stretch),
-        .area = wo_rect_intersect(areas.stack, plan->geometry.extent),
+        .area = wo_rect_intersect(seen, plan->geometry.extent),
     };
     const double start = wo_seconds();
     atomic_init(&job.blurred, false);
