@@ -12,9 +12,9 @@ wo_status wo_sheet_create(const wo_context *context, wo_rect area, wo_sheet *she
 {
     *sheet = (wo_sheet){.area = area};
     const size_t n = (size_t)wo_rect_width(area) * (size_t)wo_rect_height(area);
-    sheet->v = wo_new_large(context, error, n, sizeof *sheet->v);
+    sheet->v = wo_new_raw(context, error, n, sizeof *sheet->v);
     if (sheet->v)
-        sheet->c = wo_new_large(context, error, n, sizeof *sheet->c);
+        sheet->c = wo_new_raw(context, error, n, sizeof *sheet->c);
     if (!sheet->c) {
         wo_sheet_destroy(context, sheet);
         return WO_ERR_NOMEM;
@@ -138,6 +138,7 @@ static void load_row(void *user, size_t index, unsigned worker)
         const bool empty = c[3] == 0 && c[0] == 0 && c[1] == 0 && c[2] == 0;
         if (empty) {
             job->sheet->v[at] = NAN;
+            job->seen[at] = 0;
             continue;
         }
         counts->sanitised_depth += counted && !valid;
@@ -202,7 +203,7 @@ wo_status wo_sheet_load(const wo_context *context, const wo_sheet_source *source
     const size_t h = (size_t)wo_rect_height(sheet->area);
     load_job job = {source, counted, sheet, NULL, NULL};
     job.rows = wo_new(context, error, h, sizeof *job.rows);
-    job.seen = job.rows ? wo_new_large(context, error, w * h, sizeof *job.seen) : NULL;
+    job.seen = job.rows ? wo_new_raw(context, error, w * h, sizeof *job.seen) : NULL;
     if (!job.seen) {
         wo_delete(context, job.rows);
         return WO_ERR_NOMEM;

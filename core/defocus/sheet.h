@@ -20,6 +20,7 @@ typedef struct wo_sheet {
     bool any;      /* holds at least one surface */
 } wo_sheet;
 
+/* With memory that is not cleared. */
 WO_NODISCARD wo_status wo_sheet_create(const wo_context *context, wo_rect area, wo_sheet *sheet,
                                        wo_error *error);
 void wo_sheet_destroy(const wo_context *context, wo_sheet *sheet);

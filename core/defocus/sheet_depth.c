@@ -243,11 +243,11 @@ wo_status wo_sheet_repair_depth(const wo_context *context, const wo_sheet_source
     wo_status status = WO_ERR_NOMEM;
     if (!(job.rows = wo_new(context, error, (size_t)job.h, sizeof *job.rows)))
         goto done;
-    if (!(job.depth = wo_new_large(context, error, n, sizeof *job.depth)))
+    if (!(job.depth = wo_new_raw(context, error, n, sizeof *job.depth)))
         goto done;
-    if (!(job.to = wo_new_large(context, error, n, sizeof *job.to)))
+    if (!(job.to = wo_new_raw(context, error, n, sizeof *job.to)))
         goto done;
-    if (!(before = wo_new_large(context, error, n, sizeof *before)))
+    if (!(before = wo_new_raw(context, error, n, sizeof *before)))
         goto done;
     memcpy(before, sheet->v, n * sizeof *before);
     job.v = before;

@@ -188,7 +188,7 @@ wo_status wo_sheet_split_edges(const wo_context *context, double px_per_dioptre,
         goto done;
     if (!(job.rows = wo_new(context, error, (size_t)job.h, sizeof *job.rows)))
         goto done;
-    if (!(job.colour = wo_new_large(context, error, n, sizeof *job.colour)))
+    if (!(job.colour = wo_new_raw(context, error, n, sizeof *job.colour)))
         goto done;
     memcpy(job.colour, sheet->c, n * sizeof *job.colour);
     wo_run(context, mark_row, &job, (size_t)job.h);

@@ -176,9 +176,9 @@ wo_status wo_sheet_fill_hidden(const wo_context *context, const wo_sheet *sheets
     const size_t n = (size_t)wo_rect_width(hidden->area) * (size_t)wo_rect_height(hidden->area);
     wo_status status = WO_ERR_NOMEM;
     levels = levels > LEVELS_MAX ? LEVELS_MAX : levels;
-    if (!(job.far_v = wo_new_large(context, error, n, sizeof *job.far_v)))
+    if (!(job.far_v = wo_new_raw(context, error, n, sizeof *job.far_v)))
         goto done;
-    if (!(job.far_sheet = wo_new(context, error, n, sizeof *job.far_sheet)))
+    if (!(job.far_sheet = wo_new_raw(context, error, n, sizeof *job.far_sheet)))
         goto done;
     for (int k = 0; k <= levels; k++) {
         level *l = &pyramid[k];

@@ -36,6 +36,7 @@ static void empty_row(void *user, size_t index, unsigned worker)
     const size_t w = (size_t)wo_rect_width(sheet->area);
     for (size_t at = index * w; at < (index + 1) * w; at++)
         sheet->v[at] = NAN;
+    memset(sheet->c + index * w, 0, w * sizeof *sheet->c);
 }
 
 static wo_status empty_sheet(const wo_context *context, wo_rect area, wo_sheet *sheet,
@@ -158,7 +159,7 @@ static wo_status mend_edges(wo_plan *plan, const wo_plan_args *args, int layer,
     wo_status status = go_on(context, error);
     if (status == WO_OK && plan->params.edge_repair == WO_EDGES_OF_COLOUR_AND_DEPTH &&
         source.depth && source.depth->data) {
-        if (!(mix = wo_new_large(context, error, n, sizeof *mix)))
+        if (!(mix = wo_new_raw(context, error, n, sizeof *mix)))
             return WO_ERR_NOMEM;
         status = wo_sheet_repair_depth(context, &source, px, plan->window, sheet, mix,
                                        &plan->report.mixed_depth, error);
