@@ -186,12 +186,15 @@ static void find_row(void *user, size_t index, unsigned worker)
 {
     (void)worker;
     repair_job *job = user;
+    bool even = false;
     for (int32_t i = 0; i < job->w; i++) {
         const size_t at = index * (size_t)job->w + (size_t)i;
         mixed m = {0};
         job->mix[at] = NAN;
         job->to[at] = (way){0, 0};
-        if (isnan(job->v[at]) || !find_step(job, i, (int32_t)index, &m) ||
+        if (i % WO_STRIP == 0)
+            even = wo_sheet_even(job->v, job->w, job->h, i, (int32_t)index, RUN, job->step);
+        if (even || isnan(job->v[at]) || !find_step(job, i, (int32_t)index, &m) ||
             is_surface(job, i, (int32_t)index, &m))
             continue;
         job->to[at] = m.part >= 0.5 || isnan(job->v[m.far]) ? m.to_near : m.to_far;

@@ -36,9 +36,12 @@ static void mark_row(void *user, size_t index, unsigned worker)
     split_job *job = user;
     const int32_t y = (int32_t)index;
     const float *v = job->sheet->v;
+    bool even = false;
     for (int32_t x = 0; x < job->w; x++) {
         const size_t at = index * (size_t)job->w + (size_t)x;
-        if (isnan(v[at]))
+        if (x % WO_STRIP == 0)
+            even = wo_sheet_even(v, job->w, job->h, x, y, 1, job->step);
+        if (even || isnan(v[at]))
             continue;
         for (int32_t b = y > 0 ? -1 : 0; b <= (y + 1 < job->h); b++)
             for (int32_t a = x > 0 ? -1 : 0; a <= (x + 1 < job->w); a++) {

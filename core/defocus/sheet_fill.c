@@ -69,10 +69,13 @@ static void seed_row(void *user, size_t index, unsigned worker)
     const int32_t w = wo_rect_width(area);
     const int32_t h = wo_rect_height(area);
     const int32_t y = (int32_t)index;
+    bool even = false;
     for (int32_t x = 0; x < w; x++) {
         const size_t at = index * (size_t)w + (size_t)x;
         float *sum = job->fine->sum[at];
-        if (isnan(job->far_v[at]))
+        if (x % WO_STRIP == 0)
+            even = wo_sheet_even(job->far_v, w, h, x, y, 1, job->gap);
+        if (even || isnan(job->far_v[at]))
             continue;
         for (int32_t b = y > 0 ? -1 : 0; b <= (y + 1 < h); b++) {
             for (int32_t a = x > 0 ? -1 : 0; a <= (x + 1 < w); a++) {
