@@ -166,14 +166,41 @@ static bool is_surface(const repair_job *job, int32_t x, int32_t y, const mixed 
     return false;
 }
 
-/* The steepest step over a pixel: the others go along the edge. */
-static bool find_step(const repair_job *job, int32_t x, int32_t y, mixed *best)
+static const int direction[DIRECTIONS][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
+
+/* Nearly every pixel can be told not to be on a step by the vergences on the line through it, which
+   are too near to each other. Bit i of even[k]: so in direction i at x + k. */
+static void find_even(const repair_job *job, int32_t x, int32_t y, uint8_t even[WO_STRIP])
 {
-    static const int direction[DIRECTIONS][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
+    memset(even, 0, WO_STRIP);
+    if (x < RUN || y < RUN || x + WO_STRIP + RUN > job->w || y + RUN >= job->h)
+        return;
+    for (int i = 0; i < DIRECTIONS; i++) {
+        const ptrdiff_t next = (ptrdiff_t)direction[i][1] * job->w + direction[i][0];
+        const float *v = job->v + (ptrdiff_t)y * job->w + x - RUN * next;
+        float low[WO_STRIP], high[WO_STRIP];
+        float sum[WO_STRIP] = {0}; /* NaN when any is */
+        memcpy(low, v, sizeof low);
+        memcpy(high, v, sizeof high);
+        for (int t = 0; t <= 2 * RUN; t++, v += next)
+            for (int k = 0; k < WO_STRIP; k++) {
+                low[k] = v[k] < low[k] ? v[k] : low[k];
+                high[k] = v[k] > high[k] ? v[k] : high[k];
+                sum[k] += v[k];
+            }
+        for (int k = 0; k < WO_STRIP; k++)
+            even[k] |=
+                (uint8_t)(((double)high[k] - (double)low[k] <= job->step && !isnan(sum[k])) << i);
+    }
+}
+
+/* The steepest step over a pixel: the others go along the edge. */
+static bool find_step(const repair_job *job, int32_t x, int32_t y, unsigned even, mixed *best)
+{
     bool found = false;
     for (int i = 0; i < DIRECTIONS; i++) {
         mixed m = {0};
-        if (!step_along(job, x, y, direction[i][0], direction[i][1], &m))
+        if (even & 1u << i || !step_along(job, x, y, direction[i][0], direction[i][1], &m))
             continue;
         if (!found || m.steepness > best->steepness)
             *best = m;
@@ -186,16 +213,21 @@ static void find_row(void *user, size_t index, unsigned worker)
 {
     (void)worker;
     repair_job *job = user;
-    bool even = false;
+    const int32_t y = (int32_t)index;
+    bool all_even = false;
+    uint8_t even[WO_STRIP];
     for (int32_t i = 0; i < job->w; i++) {
         const size_t at = index * (size_t)job->w + (size_t)i;
         mixed m = {0};
         job->mix[at] = NAN;
         job->to[at] = (way){0, 0};
-        if (i % WO_STRIP == 0)
-            even = wo_sheet_even(job->v, job->w, job->h, i, (int32_t)index, RUN, job->step);
-        if (even || isnan(job->v[at]) || !find_step(job, i, (int32_t)index, &m) ||
-            is_surface(job, i, (int32_t)index, &m))
+        if (i % WO_STRIP == 0) {
+            all_even = wo_sheet_even(job->v, job->w, job->h, i, y, RUN, job->step);
+            if (!all_even)
+                find_even(job, i, y, even);
+        }
+        if (all_even || isnan(job->v[at]) || !find_step(job, i, y, even[i % WO_STRIP], &m) ||
+            is_surface(job, i, y, &m))
             continue;
         job->to[at] = m.part >= 0.5 || isnan(job->v[m.far]) ? m.to_near : m.to_far;
         job->mix[at] = (float)m.part;
