@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* A surface farther than this counts as "no depth" where an edge needs a neighbour's. */
 #define V_NONE 1e-6
@@ -124,16 +125,44 @@ int wo_read_colour(const wo_image *image, wo_alpha alpha, int32_t x, int32_t y, 
     return sanitised;
 }
 
-double wo_read_vergence(const wo_sheet_source *source, int32_t x, int32_t y, bool *valid)
+bool wo_row_is_plain(const wo_image *image, wo_alpha alpha, int32_t x1, int32_t x2, int32_t y)
+{
+    const wo_rect b = image->bounds;
+    if (image->components != 4 || alpha != WO_ALPHA_PREMULTIPLIED || x1 < b.x1 || x2 > b.x2 ||
+        y < b.y1 || y >= b.y2)
+        return false;
+    static const float low[4] = {-WO_COLOUR_MAX, -WO_COLOUR_MAX, -WO_COLOUR_MAX, 0};
+    static const float high[4] = {WO_COLOUR_MAX, WO_COLOUR_MAX, WO_COLOUR_MAX, 1};
+    const float *p = wo_image_at(image, x1, y);
+    int bad[4] = {0};
+    for (int32_t x = x1; x < x2; x++, p += 4)
+        for (int k = 0; k < 4; k++)
+            bad[k] |= !(p[k] >= low[k]) | !(p[k] <= high[k]);
+    return !(bad[0] | bad[1] | bad[2] | bad[3]);
+}
+
+/* Samples of the depth in row y, those of the nearest row beyond the bounds; that of column x is
+   at (x - bounds.x1) * components. NULL when there is none. */
+static const float *depth_row(const wo_sheet_source *source, int32_t y)
+{
+    const wo_image *image = source->depth;
+    if (!image || !image->data)
+        return NULL;
+    const int last = image->components - 1;
+    return wo_image_at(image, image->bounds.x1, clamp_to(y, image->bounds.y1, image->bounds.y2)) +
+           (source->depth_channel < last ? source->depth_channel : last);
+}
+
+static double vergence_in_row(const wo_sheet_source *source, const float *row, int32_t x, int32_t y,
+                              bool *valid)
 {
     const wo_image *image = source->depth;
     *valid = true;
-    if (!image || !image->data)
+    if (!row)
         return 0;
-    const float *p = wo_image_at(image, clamp_to(x, image->bounds.x1, image->bounds.x2),
-                                 clamp_to(y, image->bounds.y1, image->bounds.y2));
-    const int last = image->components - 1;
-    const double sample = p[source->depth_channel < last ? source->depth_channel : last];
+    const double sample =
+        row[(ptrdiff_t)(clamp_to(x, image->bounds.x1, image->bounds.x2) - image->bounds.x1) *
+            image->components];
     double cosine = 1;
     if (source->reading.mode == WO_DEPTH_RAY) {
         const double cx = 0.5 * ((double)source->format.x1 + source->format.x2);
@@ -143,6 +172,11 @@ double wo_read_vergence(const wo_sheet_source *source, int32_t x, int32_t y, boo
         cosine = 1 / sqrt(1 + dx * dx + dy * dy);
     }
     return wo_depth_vergence(&source->reading, sample, cosine, valid);
+}
+
+double wo_read_vergence(const wo_sheet_source *source, int32_t x, int32_t y, bool *valid)
+{
+    return vergence_in_row(source, depth_row(source, y), x, y, valid);
 }
 
 static void load_row(void *user, size_t index, unsigned worker)
@@ -155,15 +189,20 @@ static void load_row(void *user, size_t index, unsigned worker)
     const int32_t y = area.y1 + (int32_t)index;
     const bool row_counted = y >= job->counted.y1 && y < job->counted.y2;
     wo_sheet_counts *counts = &job->rows[index];
+    const float *depth = depth_row(source, y);
+    const bool plain = wo_row_is_plain(source->colour, source->alpha, area.x1, area.x2, y);
+    if (plain)
+        memcpy(job->sheet->c + index * w, wo_image_at(source->colour, area.x1, y),
+               w * sizeof *job->sheet->c);
     for (size_t i = 0; i < w; i++) {
         const int32_t x = area.x1 + (int32_t)i;
         const size_t at = index * w + i;
         const bool counted = row_counted && x >= job->counted.x1 && x < job->counted.x2;
         float *c = job->sheet->c[at];
-        const int sanitised = wo_read_colour(source->colour, source->alpha, x, y, c);
+        const int sanitised = plain ? 0 : wo_read_colour(source->colour, source->alpha, x, y, c);
         counts->sanitised_colour += counted ? sanitised : 0;
         bool valid;
-        double v = wo_read_vergence(source, x, y, &valid);
+        double v = vergence_in_row(source, depth, x, y, &valid);
         const bool empty = c[3] == 0 && c[0] == 0 && c[1] == 0 && c[2] == 0;
         if (empty) {
             job->sheet->v[at] = NAN;

@@ -74,6 +74,9 @@ WO_NODISCARD wo_status wo_sheet_load(const wo_context *context, const wo_sheet_s
    Returns how many samples were not finite, or cut to WO_COLOUR_MAX. */
 int wo_read_colour(const wo_image *image, wo_alpha alpha, int32_t x, int32_t y, float c[4]);
 
+/* Would wo_read_colour give the pixels x1..x2 of a row as they are? */
+bool wo_row_is_plain(const wo_image *image, wo_alpha alpha, int32_t x1, int32_t x2, int32_t y);
+
 /* Vergence of one pixel of a layer, 0 with *valid = false where there is none; outside the bounds
    the nearest pixel. Of source the depth, its channel and reading, format, focal_px and stretch are
    read. */

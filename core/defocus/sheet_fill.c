@@ -3,6 +3,7 @@
 #include "defocus/sheet.h"
 
 #include <math.h>
+#include <string.h>
 
 /* A surface ends where its neighbour's blur is larger by this many px of radius. */
 #define GAP_PX 1.0
@@ -48,14 +49,17 @@ static void farthest_row(void *user, size_t index, unsigned worker)
     (void)worker;
     fill_job *job = user;
     const size_t w = (size_t)wo_rect_width(job->hidden->area);
-    for (size_t at = index * w; at < (index + 1) * w; at++) {
-        job->far_v[at] = NAN;
-        for (size_t s = 0; s < job->count; s++) {
-            const float v = job->sheets[s].any ? job->sheets[s].v[at] : NAN;
-            if (!isnan(v) && !(v >= job->far_v[at])) {
-                job->far_v[at] = v;
-                job->far_sheet[at] = (uint8_t)s;
-            }
+    float *far_v = job->far_v + index * w;
+    uint8_t *far_sheet = job->far_sheet + index * w;
+    for (size_t i = 0; i < w; i++)
+        far_v[i] = NAN;
+    memset(far_sheet, 0, w);
+    for (size_t s = 0; s < job->count; s++) {
+        const float *v = job->sheets[s].v + index * w;
+        for (size_t i = 0; i < w && job->sheets[s].any; i++) {
+            const bool farther = !isnan(v[i]) && !(v[i] >= far_v[i]);
+            far_v[i] = farther ? v[i] : far_v[i];
+            far_sheet[i] = farther ? (uint8_t)s : far_sheet[i];
         }
     }
 }
@@ -102,14 +106,22 @@ static void pull_row(void *user, size_t index, unsigned worker)
     const level *fine = job->fine;
     level *coarse = job->coarse;
     const int32_t y = coarse->cells.y1 + (int32_t)index;
+    const wo_rect f = fine->cells;
+    const ptrdiff_t w = wo_rect_width(f);
     for (int32_t x = coarse->cells.x1; x < coarse->cells.x2; x++) {
-        float *sum = coarse->sum[cell_at(coarse, x, y)];
-        for (int32_t j = 2 * y; j < 2 * y + 2; j++)
-            for (int32_t i = 2 * x; i < 2 * x + 2; i++)
-                if (i >= fine->cells.x1 && i < fine->cells.x2 && j >= fine->cells.y1 &&
-                    j < fine->cells.y2)
-                    for (int k = 0; k < CHANNELS; k++)
-                        sum[k] += fine->sum[cell_at(fine, i, j)][k];
+        float *sum = coarse->sum[index * (size_t)wo_rect_width(coarse->cells) +
+                                 (size_t)(x - coarse->cells.x1)];
+        for (int32_t j = 2 * y; j < 2 * y + 2; j++) {
+            for (int32_t i = 2 * x; i < 2 * x + 2; i++) {
+                if (i < f.x1 || i >= f.x2 || j < f.y1 || j >= f.y2)
+                    continue;
+                const float *part = fine->sum[(j - f.y1) * w + i - f.x1];
+                for (int k = 0; k < CHANNELS && part[5] > 0; k++)
+                    sum[k] += part[k];
+            }
+        }
+        if (!(sum[5] > 0))
+            continue;
         const float scale = sum[5] > 1 ? 1 / sum[5] : 1;
         for (int k = 0; k < CHANNELS; k++)
             sum[k] *= scale;
