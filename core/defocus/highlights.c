@@ -125,9 +125,10 @@ static float fade(double reach)
 static bool is_highlight(const take_job *job, const wo_sheet *sheet, size_t at, spot *found)
 {
     const float *c = sheet->c[at];
-    const float peak = fmaxf(c[0], fmaxf(c[1], c[2]));
-    if (!(peak > WO_HIGHLIGHT_LEVEL) || isnan(sheet->v[at]))
+    if (!(c[0] > WO_HIGHLIGHT_LEVEL || c[1] > WO_HIGHLIGHT_LEVEL || c[2] > WO_HIGHLIGHT_LEVEL) ||
+        isnan(sheet->v[at]))
         return false;
+    const float peak = fmaxf(c[0], fmaxf(c[1], c[2]));
     const wo_lens *lens = job->lens;
     const double step = lens->px_per_dioptre * QUANTUM;
     found->v = (float)(rint(sheet->v[at] * step) / step);

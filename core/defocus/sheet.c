@@ -57,7 +57,7 @@ bool wo_sheet_range(const wo_sheet *sheet, float *v_min, float *v_max)
 }
 
 bool wo_sheet_even(const float *v, int32_t w, int32_t h, int32_t x, int32_t y, int32_t around,
-                   double range)
+                   double range, bool gaps)
 {
     enum { MOST = WO_STRIP + 2 * 8 };
     const int32_t x1 = x > around ? x - around : 0;
@@ -65,24 +65,24 @@ bool wo_sheet_even(const float *v, int32_t w, int32_t h, int32_t x, int32_t y, i
     const int32_t y1 = y > around ? y - around : 0;
     const int32_t y2 = y + around + 1 < h ? y + around + 1 : h;
     float low[MOST], high[MOST];
-    int gaps = 0;
-    for (int32_t i = 0; i < x2 - x1; i++)
-        low[i] = high[i] = v[(ptrdiff_t)y1 * w + x1 + i];
+    int empty = 0;
+    for (int32_t i = 0; i < MOST; i++) {
+        low[i] = INFINITY;
+        high[i] = -INFINITY;
+    }
     for (int32_t j = y1; j < y2; j++) {
         const float *row = v + (ptrdiff_t)j * w + x1;
         for (int32_t i = 0; i < x2 - x1; i++) {
             low[i] = row[i] < low[i] ? row[i] : low[i];
             high[i] = row[i] > high[i] ? row[i] : high[i];
-            gaps |= !(row[i] == row[i]);
+            empty |= !(row[i] == row[i]);
         }
     }
-    if (gaps)
-        return false;
     for (int32_t i = 1; i < x2 - x1; i++) {
         low[0] = low[i] < low[0] ? low[i] : low[0];
         high[0] = high[i] > high[0] ? high[i] : high[0];
     }
-    return (double)high[0] - (double)low[0] <= range;
+    return high[0] < low[0] || ((gaps || !empty) && (double)high[0] - (double)low[0] <= range);
 }
 
 typedef struct load_job {

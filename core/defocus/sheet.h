@@ -28,12 +28,13 @@ void wo_sheet_destroy(const wo_context *context, wo_sheet *sheet);
 /* Nearest and farthest of its surfaces; false when it has none. */
 bool wo_sheet_range(const wo_sheet *sheet, float *v_min, float *v_max);
 
-/* Looks at WO_STRIP values of a row of v, an array of w x h, from (x, y) on, and all that are no
-   more than around (at most 8) px away: is none a NaN, and do they lie within range of each other?
- */
+/* Can nothing of a strip be a step of vergence? It is WO_STRIP values of a row of v, an array of
+   w x h, from (x, y) on; all that are no more than around (at most 8) px away count, too. So when
+   the surfaces lie within range of each other, and no pixel is empty (gaps: or whatever is); also
+   when all are. */
 enum { WO_STRIP = 32 };
 bool wo_sheet_even(const float *v, int32_t w, int32_t h, int32_t x, int32_t y, int32_t around,
-                   double range);
+                   double range, bool gaps);
 
 /* How a layer's images become a sheet. */
 typedef struct wo_sheet_source {

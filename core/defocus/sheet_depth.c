@@ -209,28 +209,33 @@ static bool find_step(const repair_job *job, int32_t x, int32_t y, unsigned even
     return found;
 }
 
+static void find_pixel(repair_job *job, int32_t x, int32_t y, unsigned even)
+{
+    const size_t at = (size_t)y * (size_t)job->w + (size_t)x;
+    mixed m = {0};
+    if (isnan(job->v[at]) || !find_step(job, x, y, even, &m) || is_surface(job, x, y, &m))
+        return;
+    job->to[at] = m.part >= 0.5 || isnan(job->v[m.far]) ? m.to_near : m.to_far;
+    job->mix[at] = (float)m.part;
+}
+
 static void find_row(void *user, size_t index, unsigned worker)
 {
     (void)worker;
     repair_job *job = user;
     const int32_t y = (int32_t)index;
-    bool all_even = false;
-    uint8_t even[WO_STRIP];
-    for (int32_t i = 0; i < job->w; i++) {
-        const size_t at = index * (size_t)job->w + (size_t)i;
-        mixed m = {0};
+    const size_t w = (size_t)job->w;
+    memset(job->to + index * w, 0, w * sizeof *job->to);
+    for (size_t at = index * w; at < (index + 1) * w; at++)
         job->mix[at] = NAN;
-        job->to[at] = (way){0, 0};
-        if (i % WO_STRIP == 0) {
-            all_even = wo_sheet_even(job->v, job->w, job->h, i, y, RUN, job->step);
-            if (!all_even)
-                find_even(job, i, y, even);
-        }
-        if (all_even || isnan(job->v[at]) || !find_step(job, i, y, even[i % WO_STRIP], &m) ||
-            is_surface(job, i, y, &m))
+    for (int32_t x = 0; x < job->w; x += WO_STRIP) {
+        uint8_t even[WO_STRIP];
+        if (wo_sheet_even(job->v, job->w, job->h, x, y, RUN, job->step, false))
             continue;
-        job->to[at] = m.part >= 0.5 || isnan(job->v[m.far]) ? m.to_near : m.to_far;
-        job->mix[at] = (float)m.part;
+        find_even(job, x, y, even);
+        for (int32_t i = 0; i < WO_STRIP && x + i < job->w; i++)
+            if (even[i] != (1 << DIRECTIONS) - 1)
+                find_pixel(job, x + i, y, even[i]);
     }
 }
 

@@ -40,7 +40,7 @@ static void mark_row(void *user, size_t index, unsigned worker)
     for (int32_t x = 0; x < job->w; x++) {
         const size_t at = index * (size_t)job->w + (size_t)x;
         if (x % WO_STRIP == 0)
-            even = wo_sheet_even(v, job->w, job->h, x, y, 1, job->step);
+            even = wo_sheet_even(v, job->w, job->h, x, y, 1, job->step, true);
         if (even || isnan(v[at]))
             continue;
         for (int32_t b = y > 0 ? -1 : 0; b <= (y + 1 < job->h); b++)

@@ -78,7 +78,7 @@ static void seed_row(void *user, size_t index, unsigned worker)
         const size_t at = index * (size_t)w + (size_t)x;
         float *sum = job->fine->sum[at];
         if (x % WO_STRIP == 0)
-            even = wo_sheet_even(job->far_v, w, h, x, y, 1, job->gap);
+            even = wo_sheet_even(job->far_v, w, h, x, y, 1, job->gap, true);
         if (even || isnan(job->far_v[at]))
             continue;
         for (int32_t b = y > 0 ? -1 : 0; b <= (y + 1 < h); b++) {
@@ -136,13 +136,14 @@ static void push_row(void *user, size_t index, unsigned worker)
     const level *coarse = job->coarse;
     const wo_rect c = coarse->cells;
     const int32_t y = fine->cells.y1 + (int32_t)index;
+    float(*row)[CHANNELS] = fine->sum + cell_at(fine, fine->cells.x1, y);
     const int32_t y0 = floor_half(y);
     const int32_t y1 = y & 1 ? y0 + 1 : y0 - 1;
     const size_t w = (size_t)wo_rect_width(c);
     const size_t row0 = (size_t)(y0 - c.y1) * w;
     const size_t row1 = y1 >= c.y1 && y1 < c.y2 ? (size_t)(y1 - c.y1) * w : row0;
     for (int32_t x = fine->cells.x1; x < fine->cells.x2; x++) {
-        float *sum = fine->sum[cell_at(fine, x, y)];
+        float *sum = row[x - fine->cells.x1];
         const float rest = 1 - sum[5];
         if (!(rest > 0))
             continue;
