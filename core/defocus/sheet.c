@@ -201,14 +201,14 @@ static void load_row(void *user, size_t index, unsigned worker)
         float *c = job->sheet->c[at];
         const int sanitised = plain ? 0 : wo_read_colour(source->colour, source->alpha, x, y, c);
         counts->sanitised_colour += counted ? sanitised : 0;
-        bool valid;
-        double v = vergence_in_row(source, depth, x, y, &valid);
         const bool empty = c[3] == 0 && c[0] == 0 && c[1] == 0 && c[2] == 0;
         if (empty) {
             job->sheet->v[at] = NAN;
             job->seen[at] = 0;
             continue;
         }
+        bool valid;
+        double v = vergence_in_row(source, depth, x, y, &valid);
         counts->sanitised_depth += counted && !valid;
         job->seen[at] = v > V_NONE;
         v = source->focus ? wo_focus_from(source->focus, x, y, v) : v - source->v_origin;

@@ -254,6 +254,8 @@ static void repair_row(void *user, size_t index, unsigned worker)
     const int32_t y = job->sheet->area.y1 + (int32_t)index;
     for (int32_t i = 0; i < job->w; i++) {
         const size_t at = index * (size_t)job->w + (size_t)i;
+        if (job->to[at].x == 0 && job->to[at].y == 0)
+            continue;
         const float v = job->v[surface_of(job, at)];
         if (!(fabs((double)v - (double)job->v[at]) > job->off)) {
             job->mix[at] = NAN;

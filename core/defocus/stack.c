@@ -235,8 +235,16 @@ static void pack_block(const pack_job *job, int s, int32_t x1, int32_t y1, size_
         if (b.any)
             mark_row(stack, s, x1, y, &m);
     }
-    sum_up(&b, &c);
-    bound_cells(stack, s, &c, &m, first);
+    if (b.any) {
+        sum_up(&b, &c);
+        bound_cells(stack, s, &c, &m, first);
+        return;
+    }
+    for (size_t cell = first; cell < first + WO_BLOCK / WO_CELL; cell++) {
+        stack->cells[s][cell] = (wo_bounds){INFINITY, -INFINITY};
+        stack->steps[s][cell] = INFINITY;
+        stack->flags[s][cell] = WO_CELL_GAPS;
+    }
 }
 
 static void pack_row(void *user, size_t index, unsigned worker)
@@ -309,36 +317,36 @@ wo_status wo_stack_create(const wo_context *context, const wo_sheet *sheets, siz
     stack->row = stack->run * WO_PHASES;
     stack->cell_columns = wo_rect_width(area) / WO_CELL;
     stack->cell_rows = wo_rect_height(area) / WO_CELL;
-    if (stack->sheets > 0) {
-        const size_t plane = (size_t)stack->row * h;
-        const size_t cells = (size_t)stack->cell_columns * (size_t)stack->cell_rows;
-        stack->cell_memory = wo_new_raw(context, error, cells * (size_t)stack->sheets,
-                                        sizeof **stack->cells + sizeof **stack->spans +
-                                            sizeof **stack->steps + sizeof **stack->flags);
-        stack->memory = wo_new_raw(context, error, plane,
-                                   ((size_t)stack->sheets * 5 + 1) * sizeof *stack->memory);
-        if (!stack->memory || !stack->cell_memory) {
-            wo_stack_destroy(context, stack);
-            return WO_ERR_NOMEM;
-        }
-        float *next = stack->memory;
-        stack->opaque = next;
-        next += plane;
-        const size_t all = cells * (size_t)stack->sheets;
-        wo_bounds *const bounds = stack->cell_memory;
-        wo_span *const spans = (wo_span *)(bounds + all);
-        float *const steps = (float *)(spans + all);
-        uint8_t *const flags = (uint8_t *)(steps + all);
-        for (int s = 0; s < stack->sheets; s++) {
-            stack->v[s] = next;
-            for (int k = 0; k < 4; k++)
-                stack->c[s][k] = next + plane * (size_t)(k + 1);
-            next += 5 * plane;
-            stack->cells[s] = bounds + cells * (size_t)s;
-            stack->spans[s] = spans + cells * (size_t)s;
-            stack->steps[s] = steps + cells * (size_t)s;
-            stack->flags[s] = flags + cells * (size_t)s;
-        }
+    if (stack->sheets == 0)
+        return WO_OK;
+    const size_t plane = (size_t)stack->row * h;
+    const size_t cells = (size_t)stack->cell_columns * (size_t)stack->cell_rows;
+    stack->cell_memory = wo_new_raw(context, error, cells * (size_t)stack->sheets,
+                                    sizeof **stack->cells + sizeof **stack->spans +
+                                        sizeof **stack->steps + sizeof **stack->flags);
+    stack->memory =
+        wo_new_raw(context, error, plane, ((size_t)stack->sheets * 5 + 1) * sizeof *stack->memory);
+    if (!stack->memory || !stack->cell_memory) {
+        wo_stack_destroy(context, stack);
+        return WO_ERR_NOMEM;
+    }
+    float *next = stack->memory;
+    stack->opaque = next;
+    next += plane;
+    const size_t all = cells * (size_t)stack->sheets;
+    wo_bounds *const bounds = stack->cell_memory;
+    wo_span *const spans = (wo_span *)(bounds + all);
+    float *const steps = (float *)(spans + all);
+    uint8_t *const flags = (uint8_t *)(steps + all);
+    for (int s = 0; s < stack->sheets; s++) {
+        stack->v[s] = next;
+        for (int k = 0; k < 4; k++)
+            stack->c[s][k] = next + plane * (size_t)(k + 1);
+        next += 5 * plane;
+        stack->cells[s] = bounds + cells * (size_t)s;
+        stack->spans[s] = spans + cells * (size_t)s;
+        stack->steps[s] = steps + cells * (size_t)s;
+        stack->flags[s] = flags + cells * (size_t)s;
     }
     wo_run(context, pack_row, &job, (size_t)stack->cell_rows);
     wo_run(context, span_row, &job, (size_t)stack->cell_rows);
