@@ -118,13 +118,16 @@ static bool step_along(const repair_job *job, int32_t x, int32_t y, int a, int b
 {
     const size_t here = (size_t)y * (size_t)job->w + (size_t)x;
     const ptrdiff_t next = (ptrdiff_t)b * job->w + a;
-    bool open[2];
-    int up = run_of(job, x, y, a, b, 1, &open[0]);
-    const int sign = up > 0 ? 1 : -1;
-    up = up > 0 ? up : run_of(job, x, y, a, b, -1, &open[0]);
-    int down = run_of(job, x, y, -a, -b, -sign, &open[1]);
-    if (up == 0 || down == 0)
+    if (!inside(job, x + a, y + b) || !inside(job, x - a, y - b))
         return false;
+    const float rise = job->depth[here + (size_t)next] - job->depth[here];
+    const float fall = job->depth[here - (size_t)next] - job->depth[here];
+    if (!(rise > 0 && fall < 0) && !(rise < 0 && fall > 0))
+        return false;
+    const int sign = rise > 0 ? 1 : -1;
+    bool open[2];
+    int up = run_of(job, x, y, a, b, sign, &open[0]);
+    int down = run_of(job, x, y, -a, -b, -sign, &open[1]);
     size_t end[2] = {here + (size_t)(up * next), here - (size_t)(down * next)};
     const size_t whole[2] = {end[0], end[1]};
     if (!trim(job, next, whole, open[0], &end[0], &up) ||
