@@ -121,13 +121,18 @@ static float fade(double reach)
     return (float)(t >= 1 ? 1 : t * t * (3 - 2 * t));
 }
 
-/* One pixel of a sheet that is a highlight, or not. */
+static inline bool is_bright(const float c[4])
+{
+    return (c[0] > WO_HIGHLIGHT_LEVEL) | (c[1] > WO_HIGHLIGHT_LEVEL) | (c[2] > WO_HIGHLIGHT_LEVEL);
+}
+
+/* One bright pixel of a sheet that is a highlight, or not. */
 static bool is_highlight(const take_job *job, const wo_sheet *sheet, size_t at, spot *found)
 {
     const float *c = sheet->c[at];
-    const float peak = fmaxf(c[0], fmaxf(c[1], c[2]));
-    if (!(peak > WO_HIGHLIGHT_LEVEL) || isnan(sheet->v[at]))
+    if (isnan(sheet->v[at]))
         return false;
+    const float peak = fmaxf(c[0], fmaxf(c[1], c[2]));
     const wo_lens *lens = job->lens;
     const double step = lens->px_per_dioptre * QUANTUM;
     found->v = (float)(rint(sheet->v[at] * step) / step);
@@ -160,7 +165,8 @@ static void count_tile(void *user, size_t index, unsigned worker)
         for (int32_t y = r.y1; sheet->any && y < r.y2; y++)
             for (int32_t x = r.x1; x < r.x2; x++) {
                 const size_t at = (size_t)((y - sheet->area.y1) * w + x - sheet->area.x1);
-                job->counts[index] += is_highlight(job, sheet, at, &found);
+                if (is_bright(sheet->c[at]))
+                    job->counts[index] += is_highlight(job, sheet, at, &found);
             }
     }
 }
@@ -182,7 +188,7 @@ static void take_tile(void *user, size_t index, unsigned worker)
             for (int32_t x = r.x1; x < r.x2; x++) {
                 const size_t at = (size_t)((y - sheet->area.y1) * w + x - sheet->area.x1);
                 spot found;
-                if (!is_highlight(job, sheet, at, &found))
+                if (!is_bright(sheet->c[at]) || !is_highlight(job, sheet, at, &found))
                     continue;
                 const double part = cached_share(&cache, job->lens, found.v, found.reach);
                 /* Slits that no pixel looks through: the light stays with the surface. */
