@@ -35,17 +35,17 @@ enum {
    and coverage, part of the light that came from invented surfaces. */
 enum { WO_VIEW_V, WO_VIEW_RED, WO_VIEW_ALPHA = WO_VIEW_RED + 3, WO_VIEW_GUESSED, WO_VIEW_PLANES };
 
-/* What a neighbour lends to a ray that takes both for one surface. */
-typedef struct wo_thin_lent {
-    float c[4];
-    float away; /* dioptres; infinite where another sheet has a surface and this one has none */
-} wo_thin_lent;
+/* A thin pixel's neighbours, and itself, the fifth: what they lend to a ray that takes them for one
+   surface with it. */
+typedef struct wo_thin_around {
+    float c[9][4];
+    float away[9]; /* dioptres; infinite where another sheet has a surface and this one has none */
+} wo_thin_around;
 
 /* A thin pixel of a tile. */
 typedef struct wo_thin_at {
     const wo_piece *piece;
-    /* [9] what its neighbours lend, and itself, the fifth; NULL = not wanted: its blur is large */
-    const wo_thin_lent *around;
+    const wo_thin_around *around; /* NULL = not wanted: its blur is large */
     float c[4];
     float drop; /* dioptres to its farthest neighbour */
     int16_t at; /* in the planes of the piece */

@@ -426,12 +426,14 @@ static void draw_thin(drawing *g, const wo_thin_hit *hit)
                 l->n0 + l->slope * i - (float)across_at(l, hit->step) + l->slope * hit->t;
             add_stencil(l->upright ? across : hit->t, l->upright ? hit->t : across, w);
         }
-        memset(c, 0, sizeof c);
-        for (int n = 0; n < 9; n++) {
-            const bool same = thin->around[n].away <= l->connect;
+        float own = 1;
+        for (int n = 0; n < 9; n++)
+            own -= w[n] = thin->around->away[n] <= l->connect ? w[n] : 0;
+        for (int k = 0; k < 4; k++)
+            c[k] *= own;
+        for (int n = 0; n < 9; n++)
             for (int k = 0; k < 4; k++)
-                c[k] += w[n] * (same ? thin->around[n].c : thin->c)[k];
-        }
+                c[k] += w[n] * thin->around->c[n][k];
         /* Where interpolation leaves 0..1, colours are cut as coverage is. */
         if (c[3] < 0)
             return;
