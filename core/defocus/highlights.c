@@ -35,9 +35,10 @@ typedef struct share_cache {
 /* The pixel of a highlight is already as soft as the picture, so large discs need no soft edge. But
    discs up to SOFT px of reach have edges cut by the area of each pixel, so that they grow
    smoothly; from there to twice that it matters less and less, and then the middle of the pixel
-   counts. */
+   counts. The area is looked at in places of a lattice: no two are in one row or column, which a
+   rim could reach at once. */
 #define SOFT 2.0
-enum { PLACES = 8 };
+enum { PLACES = 144, STRIDE = 89 };
 
 /* Density of rays over the pixel at the offset (dx, dy), and one of them. */
 static double density_at(const wo_lens *lens, int32_t dx, int32_t dy, float v, float reach,
@@ -54,16 +55,16 @@ static double density_at(const wo_lens *lens, int32_t dx, int32_t dy, float v, f
     const bool even = corners[0] == corners[1] && corners[0] == corners[2] &&
                       corners[0] == corners[3] && corners[0] == density &&
                       (corners[0] > 0 || dx * dx + dy * dy > 2);
-    for (int i = 0; i < PLACES * PLACES && soft > 0 && !even; i++) {
-        const double x = dx + (i % PLACES + 0.5) / PLACES - 0.5;
-        const double y = dy + (i / PLACES + 0.5) / PLACES - 0.5;
+    for (int i = 0; i < PLACES && soft > 0 && !even; i++) {
+        const double x = dx + (i + 0.5) / PLACES - 0.5;
+        const double y = dy + (STRIDE * i % PLACES + 0.5) / PLACES - 0.5;
         double inside[4];
         const double d = lens->connect(lens->self, x, y, v, inside);
         if (d > 0)
             memcpy(line, inside, sizeof inside);
         sum += d;
     }
-    sum = soft * (even ? corners[0] : sum / (PLACES * PLACES));
+    sum = soft * (even ? corners[0] : sum / PLACES);
     /* The ray through the middle, if it is there. */
     if (density > 0)
         memcpy(line, middle, sizeof middle);
