@@ -1,0 +1,570 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "defocus/point_image.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Wavelengths that land no farther apart than this are drawn as one. px */
+#define MERGE_PX 0.2
+/* Triangles of less area are lines, whose light goes to the pixels under them. px^2 */
+#define THIN_PX2 1e-3
+/* Places are multiples of this, so that sums of them with whole numbers are exact, whatever the
+   rows that are drawn. px */
+#define PLACE_PX 0x1p-20
+/* Less light than this part of the point's is what is left of running sums. */
+#define LIGHT_LEAST 1e-10
+
+enum { X, Y, BX, BY, LIGHT, CLIP, VALUES };
+enum { FIELDS = 3, PROBES = 32 };
+
+static int32_t reach_of(double reach)
+{
+    return (int32_t)(1.25 * reach) + 3;
+}
+
+int32_t wo_point_image_reach(const wo_lens *lens, double v)
+{
+    return reach_of(lens->reach(lens->self, v, v));
+}
+
+static size_t padded(const wo_iris_grid *grid)
+{
+    return (size_t)wo_iris_grid_points(grid) + WO_LANES;
+}
+
+size_t wo_point_image_room(const wo_lens *lens, double v)
+{
+    const wo_iris_grid *grid = wo_iris_grid_for(lens->iris.grids, lens->reach(lens->self, v, v));
+    return ((size_t)lens->iris.lines + FIELDS) * VALUES * padded(grid);
+}
+
+/* Part of a triangle whose corners have these clips that light gets through. */
+static double open_part(double a, double b, double c)
+{
+    const int open = (a <= 1) + (b <= 1) + (c <= 1);
+    if (open == 0 || open == 3)
+        return open / 3;
+    const bool one = open == 1;
+    /* The corner that differs from the others comes first. */
+    if ((b <= 1) == one) {
+        const double swap = a;
+        a = b;
+        b = swap;
+    } else if ((c <= 1) == one) {
+        const double swap = a;
+        a = c;
+        c = swap;
+    }
+    const double corner = (1 - a) / (b - a) * ((1 - a) / (c - a));
+    return one ? corner : 1 - corner;
+}
+
+/* Corners of triangle kind of the cell (ring, spoke), see iris_grid.h. */
+static void corners_of(const wo_iris_grid *g, int ring, int spoke, int kind, int at[3])
+{
+    const int next = spoke + 1 < g->spokes ? spoke + 1 : 0;
+    at[0] = ring * g->spokes + spoke;
+    at[1] = kind == 0 ? at[0] + g->spokes : (ring + 1) * g->spokes + next;
+    at[2] = kind == 0 ? (ring + 1) * g->spokes + next : ring * g->spokes + next;
+}
+
+static double white_of(const wo_iris_grid *g, const wo_iris_rays *rays)
+{
+    double sum = 0;
+    for (int i = 0; i < g->rings; i++)
+        for (int j = 0; j < g->spokes; j++)
+            for (int kind = 0; kind < 2; kind++) {
+                int at[3];
+                corners_of(g, i, j, kind, at);
+                double weight = 0;
+                for (int k = 0; k < 3; k++)
+                    weight += (double)rays->weight[at[k]];
+                const double open = open_part((double)rays->clip[at[0]], (double)rays->clip[at[1]],
+                                              (double)rays->clip[at[2]]);
+                sum += (double)g->light[2 * (i * g->spokes + j) + kind] * weight / 3 * open;
+            }
+    return sum;
+}
+
+/* Value and slope of what is linear, from its values at the three field points on a circle. */
+typedef struct field {
+    double cosine[FIELDS], sine[FIELDS]; /* of their directions, times 2 / (3 radius) */
+} field;
+
+static void slopes(const field *f, const float *const value[FIELDS], int i, float out[3])
+{
+    float sum = 0;
+    float dx = 0;
+    float dy = 0;
+    for (int k = 0; k < FIELDS; k++) {
+        sum += value[k][i];
+        dx += value[k][i] * (float)f->cosine[k];
+        dy += value[k][i] * (float)f->sine[k];
+    }
+    out[0] = sum / FIELDS;
+    out[1] = dx;
+    out[2] = dy;
+}
+
+/* Where the rays of one wavelength land. */
+static void land(const field *f, const wo_iris_rays rays[FIELDS], int points, double v,
+                 double reach, float *node, size_t stride)
+{
+    const float *const from[VALUES][FIELDS] = {{rays[0].ax, rays[1].ax, rays[2].ax},
+                                               {rays[0].ay, rays[1].ay, rays[2].ay},
+                                               {rays[0].bx, rays[1].bx, rays[2].bx},
+                                               {rays[0].by, rays[1].by, rays[2].by},
+                                               {rays[0].weight, rays[1].weight, rays[2].weight},
+                                               {rays[0].clip, rays[1].clip, rays[2].clip}};
+    const float vf = (float)v;
+    const float most = (float)(1.2 * reach + 1);
+    for (int i = 0; i < points; i++) {
+        float s[VALUES][3];
+        for (int k = 0; k < VALUES; k++)
+            slopes(f, from[k], i, s[k]);
+        float d[2][3];
+        for (int k = 0; k < 3; k++) {
+            d[0][k] = s[X][k] + vf * s[BX][k];
+            d[1][k] = s[Y][k] + vf * s[BY][k];
+        }
+        const float det = (1 + d[0][1]) * (1 + d[1][2]) - d[0][2] * d[1][1];
+        const float x = (d[0][2] * d[1][0] - (1 + d[1][2]) * d[0][0]) / det;
+        const float y = (d[1][1] * d[0][0] - (1 + d[0][1]) * d[1][0]) / det;
+        /* What is farther off is beyond the clips, where the table knows nothing. */
+        const bool lands = det > 0.1f && x * x + y * y <= most * most;
+        node[X * stride + (size_t)i] = lands ? rintf(x / (float)PLACE_PX) * (float)PLACE_PX : 0;
+        node[Y * stride + (size_t)i] = lands ? rintf(y / (float)PLACE_PX) * (float)PLACE_PX : 0;
+        for (int k = BX; k < VALUES; k++)
+            node[(size_t)k * stride + (size_t)i] = lands ? s[k][0] + s[k][1] * x + s[k][2] * y : 0;
+        float *const light = &node[LIGHT * stride + (size_t)i];
+        *light = lands ? fmaxf(*light, 0) / det : 0;
+        float *const clip = &node[CLIP * stride + (size_t)i];
+        *clip = lands ? fminf(*clip, 4) : 2;
+    }
+}
+
+/* Puts wavelengths that land together into groups: group[line] rises from 0. Returns how many. */
+static int merge(const wo_lens *lens, const wo_iris_grid *g, double x, double y, double v,
+                 int group[16])
+{
+    float s[PROBES + WO_LANES] = {0};
+    float t[PROBES + WO_LANES] = {0};
+    for (int i = 0; i < PROBES; i++) {
+        const int ring = i % 2 ? g->rings : g->rings / 2;
+        const int at = ring * g->spokes + i * g->spokes / PROBES;
+        s[i] = g->s[at];
+        t[i] = g->t[at];
+    }
+    float out[2][VALUES][PROBES + WO_LANES];
+    int groups = 0;
+    for (int line = 0; line < lens->iris.lines; line++) {
+        const bool first = line == 0;
+        float(*const o)[PROBES + WO_LANES] = out[first ? 0 : 1];
+        const wo_iris_rays rays = {o[0], o[1], o[2], o[3], o[4], o[5]};
+        lens->iris.rays(lens->self, x, y, line, s, t, PROBES, &rays);
+        double apart = 0;
+        for (int i = 0; i < PROBES && !first; i++) {
+            const float dx = o[0][i] - out[0][0][i] + (float)v * (o[2][i] - out[0][2][i]);
+            const float dy = o[1][i] - out[0][1][i] + (float)v * (o[3][i] - out[0][3][i]);
+            if (o[CLIP][i] <= 1)
+                apart = fmax(apart, hypot((double)dx, (double)dy));
+        }
+        if (apart > MERGE_PX) {
+            groups++;
+            memcpy(out[0], out[1], sizeof out[0]);
+        }
+        group[line] = groups;
+    }
+    return groups + 1;
+}
+
+/* The pixels that triangles may touch. */
+static void find_rect(wo_point_image *image, size_t stride)
+{
+    float low[2] = {0, 0};
+    float high[2] = {0, 0};
+    const int points = wo_iris_grid_points(image->grid);
+    for (int line = 0; line < image->lines; line++)
+        for (int i = 0; i < points; i++)
+            for (int k = 0; k < 2; k++) {
+                const float at =
+                    image->node[((size_t)line * VALUES + (size_t)k) * stride + (size_t)i];
+                low[k] = fminf(low[k], at);
+                high[k] = fmaxf(high[k], at);
+            }
+    image->rect =
+        (wo_rect){(int32_t)floorf(low[0] + 0.5f), (int32_t)floorf(low[1] + 0.5f),
+                  (int32_t)floorf(high[0] + 0.5f) + 1, (int32_t)floorf(high[1] + 0.5f) + 1};
+}
+
+void wo_point_image_make(const wo_lens *lens, double x, double y, double v, float *memory,
+                         wo_point_image *image)
+{
+    static const double direction[FIELDS][2] = {
+        {0, 1}, {-0.8660254037844386, -0.5}, {0.8660254037844386, -0.5}};
+    const double reach = lens->reach(lens->self, v, v);
+    const double radius = 0.7 * fmax(reach, 4);
+    *image = (wo_point_image){.grid = wo_iris_grid_for(lens->iris.grids, reach), .v = v};
+    const wo_iris_grid *g = image->grid;
+    const size_t stride = padded(g);
+    const int points = wo_iris_grid_points(g);
+    int group[16];
+    image->lines = merge(lens, g, x, y, v, group);
+    image->colours = image->lines > 1 ? 3 : 1;
+    image->node = memory + FIELDS * VALUES * stride;
+    field f;
+    wo_iris_rays rays[FIELDS];
+    for (int k = 0; k < FIELDS; k++) {
+        f.cosine[k] = direction[k][0] * 2 / (3 * radius);
+        f.sine[k] = direction[k][1] * 2 / (3 * radius);
+        float *m = memory + (size_t)k * VALUES * stride;
+        rays[k] = (wo_iris_rays){
+            m, m + stride, m + 2 * stride, m + 3 * stride, m + 4 * stride, m + 5 * stride};
+    }
+    const int lines = lens->iris.lines;
+    for (int line = 0, end; line < lines; line = end) {
+        double *const colour = image->line_colour[group[line]];
+        for (end = line; end < lines && group[end] == group[line]; end++)
+            for (int c = 0; c < 3; c++)
+                colour[c] += lens->iris.line_weight[end][c] / lines;
+        float white[FIELDS][1];
+        for (int k = 0; k < FIELDS; k++) {
+            lens->iris.rays(lens->self, x + radius * direction[k][0], y + radius * direction[k][1],
+                            (line + end) / 2, g->s, g->t, points, &rays[k]);
+            white[k][0] = (float)white_of(g, &rays[k]);
+        }
+        const float *const whites[FIELDS] = {white[0], white[1], white[2]};
+        float slope[3];
+        slopes(&f, whites, 0, slope);
+        for (int c = 0; c < 3; c++)
+            for (int k = 0; k < 3; k++)
+                image->white[c][k] += colour[c] * (double)slope[k];
+        land(&f, rays, points, v, reach, image->node + (size_t)group[line] * VALUES * stride,
+             stride);
+    }
+    find_rect(image, stride);
+}
+
+/* A corner of a triangle, or between two of them; px, pixel 0 is 0..1. */
+typedef struct corner {
+    double x, y;
+} corner;
+
+/* Sums that are drawn into: differences along each row, whose running sums are the picture. */
+typedef struct canvas {
+    double *sums; /* [rows][width + 2][channels] */
+    wo_rect rect; /* of the rows */
+    ptrdiff_t width;
+} canvas;
+
+/* Channels: colours; then for each kind of rays its light and that times b. */
+enum { KIND = 3, CHANNELS_MAX = 3 + 2 * KIND };
+
+static inline void add(double *to, const double *value, double times, int channels)
+{
+    for (int k = 0; k < channels; k++)
+        to[k] += value[k] * times;
+}
+
+/* What lies right of the edge from (x0, y0) to (x1, y1) gets value, times how much of its height
+   the edge passes: less it when the edge goes up. */
+static inline void draw_edge(const canvas *c, corner from, corner to_corner, const double *value,
+                             int channels)
+{
+    const bool up = to_corner.y > from.y;
+    const double sign = up ? -1 : 1;
+    const corner low = up ? from : to_corner;
+    const corner high = up ? to_corner : from;
+    const double x0 = low.x - c->rect.x1;
+    const double y0 = low.y - c->rect.y1;
+    const double x1 = high.x - c->rect.x1;
+    const double y1 = high.y - c->rect.y1;
+    const double rows = wo_rect_height(c->rect);
+    if (!(y1 > 0 && y0 < rows && y1 > y0))
+        return;
+    const double slope = (x1 - x0) / (y1 - y0);
+    const double end = fmin(y1, rows);
+    double y = fmax(y0, 0);
+    double x = x0 + (y - y0) * slope;
+    for (int32_t row = (int32_t)y; row < end; row++) {
+        const double y_next = fmin(row + 1.0, end);
+        const double x_next = y_next == y1 ? x1 : x0 + (y_next - y0) * slope;
+        double *to = c->sums + row * c->width * channels;
+        const double left = fmin(x, x_next);
+        const double right = fmax(x, x_next);
+        const double tall = sign * (y_next - y);
+        int32_t column = (int32_t)left;
+        if (right <= column + 1.0) {
+            const double inside = 0.5 * (left + right) - column;
+            add(to + column * channels, value, tall * (1 - inside), channels);
+            add(to + (column + 1) * channels, value, tall * inside, channels);
+        } else {
+            const double a_px = tall / (right - left);
+            for (double at = left; at < right; column++) {
+                const double next = fmin(column + 1.0, right);
+                const double inside = 0.5 * (at + next) - column;
+                add(to + column * channels, value, a_px * (next - at) * (1 - inside), channels);
+                add(to + (column + 1) * channels, value, a_px * (next - at) * inside, channels);
+                at = next;
+            }
+        }
+        y = y_next;
+        x = x_next;
+    }
+}
+
+/* One wavelength being drawn. */
+typedef struct drawing {
+    const wo_point_image *image;
+    canvas to;
+    const float *x, *y, *bx, *by, *light, *clip;
+    const double *colour;
+    double mean; /* of the colours */
+} drawing;
+
+static inline corner corner_at(const drawing *d, int i)
+{
+    return (corner){(double)d->x[i] + 0.5, (double)d->y[i] + 0.5};
+}
+
+/* What a triangle sends: light, and to its kind of rays that times its mean ray. */
+static inline void send(const drawing *d, const int at[3], double light, bool mirrored, int colours,
+                        bool rays, double *value)
+{
+    for (int k = 0; k < colours; k++)
+        value[k] = light * d->colour[k];
+    if (!rays)
+        return;
+    for (int k = 0; k < 2 * KIND; k++)
+        value[colours + k] = 0;
+    double *const to = value + colours + (mirrored ? KIND : 0);
+    to[0] = light * d->mean;
+    to[1] = to[0] / 3 * (double)(d->bx[at[0]] + d->bx[at[1]] + d->bx[at[2]]);
+    to[2] = to[0] / 3 * (double)(d->by[at[0]] + d->by[at[1]] + d->by[at[2]]);
+}
+
+/* A thin triangle is a line from its first to its farthest corner. */
+static void draw_thin(const canvas *c, const corner p[3], const double *value, int channels)
+{
+    int a = 0;
+    int b = 1;
+    double longest = 0;
+    for (int k = 0; k < 3; k++) {
+        const int n = (k + 1) % 3;
+        const double length = hypot(p[n].x - p[k].x, p[n].y - p[k].y);
+        if (length > longest) {
+            longest = length;
+            a = k;
+            b = n;
+        }
+    }
+    const int pieces = (int)ceil(2 * longest) + 1;
+    for (int i = 0; i < pieces; i++) {
+        const double part = (i + 0.5) / pieces;
+        const int32_t x = (int32_t)floor(p[a].x + part * (p[b].x - p[a].x));
+        const int32_t y = (int32_t)floor(p[a].y + part * (p[b].y - p[a].y));
+        if (y < c->rect.y1 || y >= c->rect.y2)
+            continue;
+        double *to = c->sums + ((y - c->rect.y1) * c->width + x - c->rect.x1) * channels;
+        add(to, value, 1.0 / pieces, channels);
+        add(to + channels, value, -1.0 / pieces, channels);
+    }
+}
+
+/* The part of a triangle where the clip, linear between the corners, is no more than 1. */
+static int open_polygon(const drawing *d, const int at[3], corner out[4])
+{
+    int n = 0;
+    for (int k = 0; k < 3; k++) {
+        const int i = at[k];
+        const int j = at[(k + 1) % 3];
+        const double ci = (double)d->clip[i];
+        const double cj = (double)d->clip[j];
+        const corner p = corner_at(d, i);
+        const corner q = corner_at(d, j);
+        if (ci <= 1)
+            out[n++] = p;
+        if ((ci <= 1) != (cj <= 1)) {
+            const double part = (1 - ci) / (cj - ci);
+            out[n++] = (corner){rint((p.x + part * (q.x - p.x)) / PLACE_PX) * PLACE_PX,
+                                rint((p.y + part * (q.y - p.y)) / PLACE_PX) * PLACE_PX};
+        }
+    }
+    return n;
+}
+
+/* Light per area of a triangle, for its edges; all 0 when it was drawn at once. */
+static inline void triangle(const drawing *d, int ring, int spoke, int kind, int colours, bool rays,
+                            double *value)
+{
+    const int channels = colours + (rays ? 2 * KIND : 0);
+    const wo_iris_grid *g = d->image->grid;
+    int at[3];
+    corners_of(g, ring, spoke, kind, at);
+    const int open = (d->clip[at[0]] <= 1) + (d->clip[at[1]] <= 1) + (d->clip[at[2]] <= 1);
+    const double share = (double)g->light[2 * (ring * g->spokes + spoke) + kind];
+    memset(value, 0, (size_t)channels * sizeof *value);
+    if (open == 0 || !(share > 0))
+        return;
+    const corner p[3] = {corner_at(d, at[0]), corner_at(d, at[1]), corner_at(d, at[2])};
+    if (fmax(p[0].y, fmax(p[1].y, p[2].y)) < d->to.rect.y1 ||
+        fmin(p[0].y, fmin(p[1].y, p[2].y)) > d->to.rect.y2)
+        return;
+    const double light = share / 3 * (double)(d->light[at[0]] + d->light[at[1]] + d->light[at[2]]);
+    const double area =
+        0.5 * ((p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x));
+    double sent[CHANNELS_MAX];
+    if (fabs(area) < THIN_PX2) {
+        const double part =
+            open_part((double)d->clip[at[0]], (double)d->clip[at[1]], (double)d->clip[at[2]]);
+        send(d, at, light * part, area < 0, colours, rays, sent);
+        draw_thin(&d->to, p, sent, channels);
+        return;
+    }
+    send(d, at, light / area, area < 0, colours, rays, sent);
+    if (open == 3) {
+        memcpy(value, sent, (size_t)channels * sizeof *value);
+        return;
+    }
+    corner polygon[4];
+    const int n = open_polygon(d, at, polygon);
+    for (int k = 0; k < n; k++)
+        draw_edge(&d->to, polygon[k], polygon[(k + 1) % n], sent, channels);
+}
+
+static inline void shared_edge(const drawing *d, int from, int to, const double *left,
+                               const double *right, int channels)
+{
+    double value[CHANNELS_MAX];
+    double most = 0;
+    for (int k = 0; k < channels; k++) {
+        value[k] = left[k] - right[k];
+        most += fabs(value[k]);
+    }
+    if (most == 0)
+        return;
+    draw_edge(&d->to, corner_at(d, from), corner_at(d, to), value, channels);
+}
+
+/* Every edge is drawn once, with the difference between its two triangles. room: three rows of
+   densities. */
+static inline void draw_line(const drawing *d, int colours, bool rays, double *room)
+{
+    const wo_iris_grid *g = d->image->grid;
+    const int channels = colours + (rays ? 2 * KIND : 0);
+    const int n = g->spokes;
+    const size_t row = (size_t)n * (size_t)channels;
+    double *below = room;       /* outer triangles of the ring before */
+    double *outer = room + row; /* of this ring */
+    double *inner = room + 2 * row;
+    memset(below, 0, row * sizeof *below);
+    memset(inner, 0, row * sizeof *inner);
+    for (int i = 0; i <= g->rings; i++) {
+        for (int j = 0; j < n; j++) {
+            double *const o = outer + j * channels;
+            double *const in = inner + j * channels;
+            if (i < g->rings) {
+                triangle(d, i, j, 0, colours, rays, o);
+                triangle(d, i, j, 1, colours, rays, in);
+            } else {
+                memset(in, 0, (size_t)channels * sizeof *in);
+            }
+        }
+        for (int j = 0; j < n; j++) {
+            const int next = j + 1 < n ? j + 1 : 0;
+            const int before = j > 0 ? j - 1 : n - 1;
+            const int at = i * n + j;
+            shared_edge(d, at, i * n + next, below + j * channels, inner + j * channels, channels);
+            if (i == g->rings)
+                continue;
+            shared_edge(d, at, at + n, outer + j * channels, inner + before * channels, channels);
+            shared_edge(d, at, (i + 1) * n + next, inner + j * channels, outer + j * channels,
+                        channels);
+        }
+        double *const swap = below;
+        below = outer;
+        outer = swap;
+    }
+}
+
+size_t wo_point_image_draw_room(const wo_lens *lens, double v, int32_t rows)
+{
+    const wo_iris_grid *g = wo_iris_grid_for(lens->iris.grids, lens->reach(lens->self, v, v));
+    const size_t width = 2 * (size_t)wo_point_image_reach(lens, v) + 3;
+    return CHANNELS_MAX * (3 * (size_t)g->spokes + width * (size_t)rows);
+}
+
+/* Running sums become pixels. */
+static void finish_row(const wo_point_image *image, int32_t y, const double *sums, int colours,
+                       bool rays, wo_point_pixel *pixels)
+{
+    const int channels = colours + (rays ? 2 * KIND : 0);
+    double sum[CHANNELS_MAX] = {0};
+    for (int32_t x = image->rect.x1; x < image->rect.x2; x++, sums += channels) {
+        wo_point_pixel *const p = &pixels[x - image->rect.x1];
+        *p = (wo_point_pixel){.light = {0}};
+        for (int k = 0; k < channels; k++)
+            sum[k] += sums[k];
+        for (int c = 0; c < 3; c++) {
+            const double *const w = image->white[c];
+            const double white = w[0] + w[1] * x + w[2] * y;
+            const double light = sum[colours == 3 ? c : 0];
+            if (light > LIGHT_LEAST && white > 0.01 * w[0])
+                p->light[c] = (float)(light / white);
+        }
+        const double *const kinds = sum + colours;
+        const double all = rays ? fmax(kinds[0], 0) + fmax(kinds[KIND], 0) : 0;
+        for (int i = 0; i < 2 && all > LIGHT_LEAST; i++) {
+            const double *const kind = kinds + i * KIND;
+            if (!(kind[0] > 1e-3 * all))
+                continue;
+            p->part[i] = (float)(kind[0] / all);
+            p->b[i][0] = (float)(kind[1] / kind[0]);
+            p->b[i][1] = (float)(kind[2] / kind[0]);
+        }
+    }
+}
+
+static inline void draw(const wo_point_image *image, int32_t y1, int32_t y2, int colours, bool rays,
+                        double *room, wo_point_pixel *pixels)
+{
+    const int channels = colours + (rays ? 2 * KIND : 0);
+    const wo_iris_grid *g = image->grid;
+    const size_t stride = padded(g);
+    const int32_t width = wo_rect_width(image->rect);
+    drawing d = {.image = image,
+                 .to = {.sums = room + 3 * (size_t)g->spokes * (size_t)channels,
+                        .rect = {image->rect.x1, y1, image->rect.x2, y2},
+                        .width = width + 2}};
+    memset(d.to.sums, 0,
+           (size_t)(y2 - y1) * (size_t)(width + 2) * (size_t)channels * sizeof *d.to.sums);
+    for (int line = 0; line < image->lines; line++) {
+        const float *m = image->node + (size_t)line * VALUES * stride;
+        d.x = m;
+        d.y = m + stride;
+        d.bx = m + 2 * stride;
+        d.by = m + 3 * stride;
+        d.light = m + 4 * stride;
+        d.clip = m + 5 * stride;
+        d.colour = image->line_colour[line];
+        d.mean = colours == 3 ? (d.colour[0] + d.colour[1] + d.colour[2]) / 3 : d.colour[0];
+        draw_line(&d, colours, rays, room);
+    }
+    for (int32_t y = y1; y < y2; y++)
+        finish_row(image, y, d.to.sums + (y - y1) * d.to.width * channels, colours, rays,
+                   pixels + (ptrdiff_t)(y - y1) * width);
+}
+
+void wo_point_image_draw(const wo_point_image *image, int32_t y1, int32_t y2, bool rays,
+                         double *room, wo_point_pixel *pixels)
+{
+    if (image->colours == 3 && rays)
+        draw(image, y1, y2, 3, true, room, pixels);
+    else if (image->colours == 3)
+        draw(image, y1, y2, 3, false, room, pixels);
+    else if (rays)
+        draw(image, y1, y2, 1, true, room, pixels);
+    else
+        draw(image, y1, y2, 1, false, room, pixels);
+}
