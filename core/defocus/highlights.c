@@ -121,6 +121,14 @@ static float fade(double reach)
     return (float)(t >= 1 ? 1 : t * t * (3 - 2 * t));
 }
 
+/* Light of a highlight that stays. Rays of a lens with a table each carry one wavelength, and what is
+   left to them shows as coloured grain: little is, from twice the level on. */
+static float rest_of(const wo_lens *lens, float peak)
+{
+    const float part = lens->connect ? 0 : fminf(peak / WO_HIGHLIGHT_LEVEL - 1, 1);
+    return WO_HIGHLIGHT_LEVEL + part * (WO_HIGHLIGHT_REST - WO_HIGHLIGHT_LEVEL);
+}
+
 /* One pixel of a sheet that is a highlight, or not. */
 static bool is_highlight(const take_job *job, const wo_sheet *sheet, size_t at, spot *found)
 {
@@ -135,7 +143,7 @@ static bool is_highlight(const take_job *job, const wo_sheet *sheet, size_t at, 
     const double exact = lens->reach(lens->self, sheet->v[at], sheet->v[at]);
     if (!(exact > WO_HIGHLIGHT_FROM))
         return false;
-    found->taken = fade(exact) * (peak - WO_HIGHLIGHT_LEVEL) / peak;
+    found->taken = fade(exact) * (peak - rest_of(lens, peak)) / peak;
     return true;
 }
 

@@ -15,8 +15,14 @@
 /* Less light than this part of the point's is what is left of running sums. */
 #define LIGHT_LEAST 1e-10
 
+#define PI 3.14159265358979323846
+
+/* Where a picture is drawn together more than this by a change of the lens over the blur, nothing
+   is known. */
+#define LEAST_DET 0.1f
+
 enum { X, Y, BX, BY, LIGHT, CLIP, VALUES };
-enum { FIELDS = 3, PROBES = 32 };
+enum { FIELDS = 6, PROBES = 32 };
 
 static int32_t reach_of(double reach)
 {
@@ -87,60 +93,99 @@ static double white_of(const wo_iris_grid *g, const wo_iris_rays *rays)
     return sum;
 }
 
-/* Value and slope of what is linear, from its values at the three field points on a circle. */
+/* What is quadratic in x and y is known from its values at the point and at a pentagon around it:
+   coefficients of 1, x, y, x^2 + y^2, x^2 - y^2, 2 x y. */
+enum { TERMS = WO_POINT_TERMS };
+
 typedef struct field {
-    double cosine[FIELDS], sine[FIELDS]; /* of their directions, times 2 / (3 radius) */
+    double place[FIELDS][2]; /* px */
+    float share[FIELDS][TERMS];
 } field;
 
-static void slopes(const field *f, const float *const value[FIELDS], int i, float out[3])
+static void make_field(double radius, field *f)
 {
-    float sum = 0;
-    float dx = 0;
-    float dy = 0;
-    for (int k = 0; k < FIELDS; k++) {
-        sum += value[k][i];
-        dx += value[k][i] * (float)f->cosine[k];
-        dy += value[k][i] * (float)f->sine[k];
+    *f = (field){.share = {{1, 0, 0, (float)(-1 / (radius * radius)), 0, 0}}};
+    for (int k = 1; k < FIELDS; k++) {
+        const double angle = 2 * PI * k / (FIELDS - 1);
+        const double part = 2.0 / (FIELDS - 1);
+        f->place[k][0] = radius * cos(angle);
+        f->place[k][1] = radius * sin(angle);
+        f->share[k][1] = (float)(part * cos(angle) / radius);
+        f->share[k][2] = (float)(part * sin(angle) / radius);
+        f->share[k][3] = (float)(0.5 * part / (radius * radius));
+        f->share[k][4] = (float)(part * cos(2 * angle) / (radius * radius));
+        f->share[k][5] = (float)(part * sin(2 * angle) / (radius * radius));
     }
-    out[0] = sum / FIELDS;
-    out[1] = dx;
-    out[2] = dy;
+}
+
+static inline void terms_of(const field *f, const float value[FIELDS], float out[TERMS])
+{
+    for (int n = 0; n < TERMS; n++)
+        out[n] = 0;
+    for (int k = 0; k < FIELDS; k++)
+        for (int n = 0; n < TERMS; n++)
+            out[n] += f->share[k][n] * value[k];
+}
+
+static inline float value_at(const float t[TERMS], float x, float y)
+{
+    return t[0] + t[1] * x + t[2] * y + t[3] * (x * x + y * y) + t[4] * (x * x - y * y) +
+           t[5] * (2 * x * y);
+}
+
+/* Newton's step of x + D(x) = 0; returns |I + dD/dx| before it. */
+static inline float step(const float d[2][TERMS], float *x, float *y)
+{
+    const float fx = *x + value_at(d[0], *x, *y);
+    const float fy = *y + value_at(d[1], *x, *y);
+    float j[2][2];
+    for (int k = 0; k < 2; k++) {
+        j[k][0] = d[k][1] + 2 * (d[k][3] + d[k][4]) * *x + 2 * d[k][5] * *y;
+        j[k][1] = d[k][2] + 2 * (d[k][3] - d[k][4]) * *y + 2 * d[k][5] * *x;
+    }
+    const float det = (1 + j[0][0]) * (1 + j[1][1]) - j[0][1] * j[1][0];
+    *x -= ((1 + j[1][1]) * fx - j[0][1] * fy) / det;
+    *y -= ((1 + j[0][0]) * fy - j[1][0] * fx) / det;
+    return det;
 }
 
 /* Where the rays of one wavelength land. */
 static void land(const field *f, const wo_iris_rays rays[FIELDS], int points, double v,
                  double reach, float *node, size_t stride)
 {
-    const float *const from[VALUES][FIELDS] = {{rays[0].ax, rays[1].ax, rays[2].ax},
-                                               {rays[0].ay, rays[1].ay, rays[2].ay},
-                                               {rays[0].bx, rays[1].bx, rays[2].bx},
-                                               {rays[0].by, rays[1].by, rays[2].by},
-                                               {rays[0].weight, rays[1].weight, rays[2].weight},
-                                               {rays[0].clip, rays[1].clip, rays[2].clip}};
     const float vf = (float)v;
     const float most = (float)(1.2 * reach + 1);
     for (int i = 0; i < points; i++) {
-        float s[VALUES][3];
-        for (int k = 0; k < VALUES; k++)
-            slopes(f, from[k], i, s[k]);
-        float d[2][3];
-        for (int k = 0; k < 3; k++) {
-            d[0][k] = s[X][k] + vf * s[BX][k];
-            d[1][k] = s[Y][k] + vf * s[BY][k];
+        float from[VALUES][FIELDS];
+        for (int k = 0; k < FIELDS; k++) {
+            from[X][k] = rays[k].ax[i] + vf * rays[k].bx[i];
+            from[Y][k] = rays[k].ay[i] + vf * rays[k].by[i];
+            from[BX][k] = rays[k].bx[i];
+            from[BY][k] = rays[k].by[i];
+            from[LIGHT][k] = rays[k].weight[i];
+            /* Clips go with the square of a radius. */
+            from[CLIP][k] = sqrtf(fmaxf(rays[k].clip[i], 0));
         }
-        const float det = (1 + d[0][1]) * (1 + d[1][2]) - d[0][2] * d[1][1];
-        const float x = (d[0][2] * d[1][0] - (1 + d[1][2]) * d[0][0]) / det;
-        const float y = (d[1][1] * d[0][0] - (1 + d[0][1]) * d[1][0]) / det;
+        float t[VALUES][TERMS];
+        for (int k = 0; k < VALUES; k++)
+            terms_of(f, from[k], t[k]);
+        float x = -t[X][0];
+        float y = -t[Y][0];
+        float det = step(t, &x, &y);
+        for (int k = 0; k < 2; k++)
+            det = fminf(det, 1) > LEAST_DET ? step(t, &x, &y) : 0;
         /* What is farther off is beyond the clips, where the table knows nothing. */
-        const bool lands = det > 0.1f && x * x + y * y <= most * most;
-        node[X * stride + (size_t)i] = lands ? rintf(x / (float)PLACE_PX) * (float)PLACE_PX : 0;
-        node[Y * stride + (size_t)i] = lands ? rintf(y / (float)PLACE_PX) * (float)PLACE_PX : 0;
-        for (int k = BX; k < VALUES; k++)
-            node[(size_t)k * stride + (size_t)i] = lands ? s[k][0] + s[k][1] * x + s[k][2] * y : 0;
-        float *const light = &node[LIGHT * stride + (size_t)i];
-        *light = lands ? fmaxf(*light, 0) / det : 0;
-        float *const clip = &node[CLIP * stride + (size_t)i];
-        *clip = lands ? fminf(*clip, 4) : 2;
+        const bool lands = det > LEAST_DET && x * x + y * y <= most * most;
+        x = lands ? rintf(x / (float)PLACE_PX) * (float)PLACE_PX : 0;
+        y = lands ? rintf(y / (float)PLACE_PX) * (float)PLACE_PX : 0;
+        const float clip = value_at(t[CLIP], x, y);
+        float *const to = node + i;
+        to[X * stride] = x;
+        to[Y * stride] = y;
+        to[BX * stride] = lands ? value_at(t[BX], x, y) : 0;
+        to[BY * stride] = lands ? value_at(t[BY], x, y) : 0;
+        to[LIGHT * stride] = lands ? fmaxf(value_at(t[LIGHT], x, y), 0) / det : 0;
+        to[CLIP * stride] = lands ? fminf(clip * clip, 4) : 4;
     }
 }
 
@@ -201,10 +246,7 @@ static void find_rect(wo_point_image *image, size_t stride)
 void wo_point_image_make(const wo_lens *lens, double x, double y, double v, float *memory,
                          wo_point_image *image)
 {
-    static const double direction[FIELDS][2] = {
-        {0, 1}, {-0.8660254037844386, -0.5}, {0.8660254037844386, -0.5}};
     const double reach = lens->reach(lens->self, v, v);
-    const double radius = 0.7 * fmax(reach, 4);
     *image = (wo_point_image){.grid = wo_iris_grid_for(lens->iris.grids, reach), .v = v};
     const wo_iris_grid *g = image->grid;
     const size_t stride = padded(g);
@@ -214,10 +256,9 @@ void wo_point_image_make(const wo_lens *lens, double x, double y, double v, floa
     image->colours = image->lines > 1 ? 3 : 1;
     image->node = memory + FIELDS * VALUES * stride;
     field f;
+    make_field(0.8 * fmax(reach, 4), &f);
     wo_iris_rays rays[FIELDS];
     for (int k = 0; k < FIELDS; k++) {
-        f.cosine[k] = direction[k][0] * 2 / (3 * radius);
-        f.sine[k] = direction[k][1] * 2 / (3 * radius);
         float *m = memory + (size_t)k * VALUES * stride;
         rays[k] = (wo_iris_rays){
             m, m + stride, m + 2 * stride, m + 3 * stride, m + 4 * stride, m + 5 * stride};
@@ -228,18 +269,17 @@ void wo_point_image_make(const wo_lens *lens, double x, double y, double v, floa
         for (end = line; end < lines && group[end] == group[line]; end++)
             for (int c = 0; c < 3; c++)
                 colour[c] += lens->iris.line_weight[end][c] / lines;
-        float white[FIELDS][1];
+        float white[FIELDS];
         for (int k = 0; k < FIELDS; k++) {
-            lens->iris.rays(lens->self, x + radius * direction[k][0], y + radius * direction[k][1],
-                            (line + end) / 2, g->s, g->t, points, &rays[k]);
-            white[k][0] = (float)white_of(g, &rays[k]);
+            lens->iris.rays(lens->self, x + f.place[k][0], y + f.place[k][1], (line + end) / 2,
+                            g->s, g->t, points, &rays[k]);
+            white[k] = (float)white_of(g, &rays[k]);
         }
-        const float *const whites[FIELDS] = {white[0], white[1], white[2]};
-        float slope[3];
-        slopes(&f, whites, 0, slope);
+        float terms[TERMS];
+        terms_of(&f, white, terms);
         for (int c = 0; c < 3; c++)
-            for (int k = 0; k < 3; k++)
-                image->white[c][k] += colour[c] * (double)slope[k];
+            for (int k = 0; k < TERMS; k++)
+                image->white[c][k] += (float)colour[c] * terms[k];
         land(&f, rays, points, v, reach, image->node + (size_t)group[line] * VALUES * stride,
              stride);
     }
@@ -507,10 +547,9 @@ static void finish_row(const wo_point_image *image, int32_t y, const double *sum
         for (int k = 0; k < channels; k++)
             sum[k] += sums[k];
         for (int c = 0; c < 3; c++) {
-            const double *const w = image->white[c];
-            const double white = w[0] + w[1] * x + w[2] * y;
+            const double white = (double)value_at(image->white[c], (float)x, (float)y);
             const double light = sum[colours == 3 ? c : 0];
-            if (light > LIGHT_LEAST && white > 0.01 * w[0])
+            if (light > LIGHT_LEAST && white > 0.01 * (double)image->white[c][0])
                 p->light[c] = (float)(light / white);
         }
         const double *const kinds = sum + colours;

@@ -9,22 +9,23 @@
 /* What a lens makes of one pixel of light, drawn without noise: each triangle of the iris lands as
    a triangle on the sensor and spreads its share of the light evenly over it, cut by the pixels
    exactly. Folds of the map are caustics: their triangles lie over each other and add up. For
-   lenses with an iris (wo_lens.iris).
+   lenses that know their iris (wo_lens.iris).
 
    A sensor point x sees the picture at x + D(x, u) through the iris point u, D = A + B v. The light
-   of the picture's point q lands where x + D(x, u) = q. D, weights and clips are taken to be linear
-   in x over the blur, from three field points around q; so a lens that differs over the blur is
-   right to first order, and so is the light: 1 / |I + dD/dx|, over what a white picture would
-   get. */
+   of the picture's point q lands where x + D(x, u) = q. D, weights and clips are taken to be
+   quadratic in x over the blur, from six field points; so a lens that differs over the blur is
+   right to second order, and so is the light: 1 / |I + dD/dx|, over what a white picture would get.
+ */
+enum { WO_POINT_TERMS = 6 };
 typedef struct wo_point_image {
     const wo_iris_grid *grid;
     int lines;   /* that are drawn: wavelengths that part by less than MERGE px share one */
     int colours; /* 1 = red, green and blue alike but for white, 3 */
     double line_colour[16][3];
     double v;
-    double white[3][3]; /* light of a white picture: at the point, and its slope in x and y */
-    wo_rect rect;       /* of the lit pixels, counted from the point's */
-    float *node;        /* [lines][6][points]: x, y, bx, by, light, clip; borrowed */
+    float white[3][WO_POINT_TERMS]; /* light of a white picture around the point */
+    wo_rect rect;                   /* of the lit pixels, counted from the point's */
+    float *node;                    /* [lines][6][points]: x, y, bx, by, light, clip; borrowed */
 } wo_point_image;
 
 /* Floats of memory that an image at this vergence needs. */
