@@ -1,27 +1,27 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
-#include "defocus/point_image.h"
+#include "defocus/point_image_private.h"
 
 #include <math.h>
 #include <string.h>
 
 /* Wavelengths that land no farther apart than this are drawn as one. px */
 #define MERGE_PX 0.2
-/* Triangles of less area are lines, whose light goes to the pixels under them. px^2 */
-#define THIN_PX2 1e-3
-/* Places are multiples of this, so that sums of them with whole numbers are exact, whatever the
-   rows that are drawn. px */
-#define PLACE_PX 0x1p-20
-/* Less light than this part of the point's is what is left of running sums. */
-#define LIGHT_LEAST 1e-10
-
-#define PI 3.14159265358979323846
+#define PI       3.14159265358979323846
 
 /* Where a picture is drawn together more than this by a change of the lens over the blur, nothing
    is known. */
 #define LEAST_DET 0.1f
 
-enum { X, Y, BX, BY, LIGHT, CLIP, VALUES };
+enum {
+    X = WO_NODE_X,
+    Y = WO_NODE_Y,
+    BX = WO_NODE_BX,
+    BY = WO_NODE_BY,
+    LIGHT = WO_NODE_LIGHT,
+    CLIP = WO_NODE_CLIP,
+    VALUES = WO_NODE_VALUES
+};
 enum { FIELDS = 6, PROBES = 32 };
 
 static int32_t reach_of(double reach)
@@ -34,19 +34,14 @@ int32_t wo_point_image_reach(const wo_lens *lens, double v)
     return reach_of(lens->reach(lens->self, v, v));
 }
 
-static size_t padded(const wo_iris_grid *grid)
-{
-    return (size_t)wo_iris_grid_points(grid) + WO_LANES;
-}
-
 size_t wo_point_image_room(const wo_lens *lens, double v)
 {
     const wo_iris_grid *grid = wo_iris_grid_for(lens->iris.grids, lens->reach(lens->self, v, v));
-    return ((size_t)lens->iris.lines + FIELDS) * VALUES * padded(grid);
+    return ((size_t)lens->iris.lines + FIELDS) * VALUES * wo_node_stride(grid);
 }
 
 /* Part of a triangle whose corners have these clips that light gets through. */
-static double open_part(double a, double b, double c)
+double wo_open_part(double a, double b, double c)
 {
     const int open = (a <= 1) + (b <= 1) + (c <= 1);
     if (open == 0 || open == 3)
@@ -66,15 +61,6 @@ static double open_part(double a, double b, double c)
     return one ? corner : 1 - corner;
 }
 
-/* Corners of triangle kind of the cell (ring, spoke), see iris_grid.h. */
-static void corners_of(const wo_iris_grid *g, int ring, int spoke, int kind, int at[3])
-{
-    const int next = spoke + 1 < g->spokes ? spoke + 1 : 0;
-    at[0] = ring * g->spokes + spoke;
-    at[1] = kind == 0 ? at[0] + g->spokes : (ring + 1) * g->spokes + next;
-    at[2] = kind == 0 ? (ring + 1) * g->spokes + next : ring * g->spokes + next;
-}
-
 static double white_of(const wo_iris_grid *g, const wo_iris_rays *rays)
 {
     double sum = 0;
@@ -82,12 +68,13 @@ static double white_of(const wo_iris_grid *g, const wo_iris_rays *rays)
         for (int j = 0; j < g->spokes; j++)
             for (int kind = 0; kind < 2; kind++) {
                 int at[3];
-                corners_of(g, i, j, kind, at);
+                wo_cell_corners(g, i, j, kind, at);
                 double weight = 0;
                 for (int k = 0; k < 3; k++)
                     weight += (double)rays->weight[at[k]];
-                const double open = open_part((double)rays->clip[at[0]], (double)rays->clip[at[1]],
-                                              (double)rays->clip[at[2]]);
+                const double open =
+                    wo_open_part((double)rays->clip[at[0]], (double)rays->clip[at[1]],
+                                 (double)rays->clip[at[2]]);
                 sum += (double)g->light[2 * (i * g->spokes + j) + kind] * weight / 3 * open;
             }
     return sum;
@@ -118,74 +105,101 @@ static void make_field(double radius, field *f)
     }
 }
 
-static inline void terms_of(const field *f, const float value[FIELDS], float out[TERMS])
-{
-    for (int n = 0; n < TERMS; n++)
-        out[n] = 0;
-    for (int k = 0; k < FIELDS; k++)
-        for (int n = 0; n < TERMS; n++)
-            out[n] += f->share[k][n] * value[k];
-}
+/* Of so many points at a time, so that compilers make vectors of them. */
+enum { LANES = 16 };
 
-static inline float value_at(const float t[TERMS], float x, float y)
+static inline void terms_of(const field *f, const float value[FIELDS][LANES],
+                            float out[TERMS][LANES])
 {
-    return t[0] + t[1] * x + t[2] * y + t[3] * (x * x + y * y) + t[4] * (x * x - y * y) +
-           t[5] * (2 * x * y);
-}
-
-/* Newton's step of x + D(x) = 0; returns |I + dD/dx| before it. */
-static inline float step(const float d[2][TERMS], float *x, float *y)
-{
-    const float fx = *x + value_at(d[0], *x, *y);
-    const float fy = *y + value_at(d[1], *x, *y);
-    float j[2][2];
-    for (int k = 0; k < 2; k++) {
-        j[k][0] = d[k][1] + 2 * (d[k][3] + d[k][4]) * *x + 2 * d[k][5] * *y;
-        j[k][1] = d[k][2] + 2 * (d[k][3] - d[k][4]) * *y + 2 * d[k][5] * *x;
+    for (int l = 0; l < LANES; l++) {
+        out[0][l] = value[0][l];
+        out[3][l] = f->share[0][3] * value[0][l];
+        out[1][l] = out[2][l] = out[4][l] = out[5][l] = 0;
     }
-    const float det = (1 + j[0][0]) * (1 + j[1][1]) - j[0][1] * j[1][0];
-    *x -= ((1 + j[1][1]) * fx - j[0][1] * fy) / det;
-    *y -= ((1 + j[0][0]) * fy - j[1][0] * fx) / det;
-    return det;
+    for (int k = 1; k < FIELDS; k++)
+        for (int n = 1; n < TERMS; n++)
+            for (int l = 0; l < LANES; l++)
+                out[n][l] += f->share[k][n] * value[k][l];
 }
 
-/* Where the rays of one wavelength land. */
-static void land(const field *f, const wo_iris_rays rays[FIELDS], int points, double v,
-                 double reach, float *node, size_t stride)
+static inline float value_of(float t[TERMS][LANES], int l, float x, float y)
 {
-    const float vf = (float)v;
-    const float most = (float)(1.2 * reach + 1);
-    for (int i = 0; i < points; i++) {
-        float from[VALUES][FIELDS];
-        for (int k = 0; k < FIELDS; k++) {
-            from[X][k] = rays[k].ax[i] + vf * rays[k].bx[i];
-            from[Y][k] = rays[k].ay[i] + vf * rays[k].by[i];
-            from[BX][k] = rays[k].bx[i];
-            from[BY][k] = rays[k].by[i];
-            from[LIGHT][k] = rays[k].weight[i];
+    const float own[TERMS] = {t[0][l], t[1][l], t[2][l], t[3][l], t[4][l], t[5][l]};
+    return wo_quadratic(own, x, y);
+}
+
+/* Newton's step of x + D(x) = 0; det = |I + dD/dx| before it. A det that is too small stays. */
+static inline void step(float d[2][TERMS][LANES], float x[LANES], float y[LANES], float det[LANES])
+{
+    for (int l = 0; l < LANES; l++) {
+        const float fx = x[l] + value_of(d[0], l, x[l], y[l]);
+        const float fy = y[l] + value_of(d[1], l, x[l], y[l]);
+        const float xx =
+            1 + d[0][1][l] + 2 * ((d[0][3][l] + d[0][4][l]) * x[l] + d[0][5][l] * y[l]);
+        const float xy = d[0][2][l] + 2 * ((d[0][3][l] - d[0][4][l]) * y[l] + d[0][5][l] * x[l]);
+        const float yx = d[1][1][l] + 2 * ((d[1][3][l] + d[1][4][l]) * x[l] + d[1][5][l] * y[l]);
+        const float yy =
+            1 + d[1][2][l] + 2 * ((d[1][3][l] - d[1][4][l]) * y[l] + d[1][5][l] * x[l]);
+        const float is = xx * yy - xy * yx;
+        det[l] = det[l] > LEAST_DET ? is : 0;
+        const float part = det[l] > LEAST_DET ? 1 / is : 0;
+        x[l] -= part * (yy * fx - xy * fy);
+        y[l] -= part * (xx * fy - yx * fx);
+    }
+}
+
+/* One value of LANES rays of every field point. */
+static void gather(const wo_iris_rays rays[FIELDS], int k, int first, float out[FIELDS][LANES])
+{
+    for (int f = 0; f < FIELDS; f++) {
+        const float *const from[VALUES] = {rays[f].ax, rays[f].ay,     rays[f].bx,
+                                           rays[f].by, rays[f].weight, rays[f].clip};
+        memcpy(out[f], from[k] + first, LANES * sizeof(float));
+    }
+}
+
+/* Where LANES rays of one wavelength land. */
+static void land_some(const field *f, const wo_iris_rays rays[FIELDS], int first, float v,
+                      float most, float *node, size_t stride)
+{
+    float from[VALUES][FIELDS][LANES];
+    for (int k = 0; k < VALUES; k++)
+        gather(rays, k, first, from[k]);
+    for (int i = 0; i < FIELDS; i++)
+        for (int l = 0; l < LANES; l++) {
+            from[X][i][l] += v * from[BX][i][l];
+            from[Y][i][l] += v * from[BY][i][l];
             /* Clips go with the square of a radius. */
-            from[CLIP][k] = sqrtf(fmaxf(rays[k].clip[i], 0));
+            const float clip = from[CLIP][i][l];
+            from[CLIP][i][l] = sqrtf(clip > 0 ? clip : 0);
         }
-        float t[VALUES][TERMS];
-        for (int k = 0; k < VALUES; k++)
-            terms_of(f, from[k], t[k]);
-        float x = -t[X][0];
-        float y = -t[Y][0];
-        float det = step(t, &x, &y);
-        for (int k = 0; k < 2; k++)
-            det = fminf(det, 1) > LEAST_DET ? step(t, &x, &y) : 0;
+    float t[VALUES][TERMS][LANES];
+    for (int k = 0; k < VALUES; k++)
+        terms_of(f, from[k], t[k]);
+    float x[LANES];
+    float y[LANES];
+    float det[LANES];
+    for (int l = 0; l < LANES; l++) {
+        x[l] = -t[X][0][l];
+        y[l] = -t[Y][0][l];
+        det[l] = 1;
+    }
+    for (int k = 0; k < 3; k++)
+        step(t, x, y, det);
+    for (int l = 0; l < LANES; l++) {
         /* What is farther off is beyond the clips, where the table knows nothing. */
-        const bool lands = det > LEAST_DET && x * x + y * y <= most * most;
-        x = lands ? rintf(x / (float)PLACE_PX) * (float)PLACE_PX : 0;
-        y = lands ? rintf(y / (float)PLACE_PX) * (float)PLACE_PX : 0;
-        const float clip = value_at(t[CLIP], x, y);
-        float *const to = node + i;
-        to[X * stride] = x;
-        to[Y * stride] = y;
-        to[BX * stride] = lands ? value_at(t[BX], x, y) : 0;
-        to[BY * stride] = lands ? value_at(t[BY], x, y) : 0;
-        to[LIGHT * stride] = lands ? fmaxf(value_at(t[LIGHT], x, y), 0) / det : 0;
-        to[CLIP * stride] = lands ? fminf(clip * clip, 4) : 4;
+        const bool lands = det[l] > LEAST_DET && x[l] * x[l] + y[l] * y[l] <= most * most;
+        const float xl = lands ? rintf(x[l] / (float)WO_PLACE_PX) * (float)WO_PLACE_PX : 0;
+        const float yl = lands ? rintf(y[l] / (float)WO_PLACE_PX) * (float)WO_PLACE_PX : 0;
+        const float clip = value_of(t[CLIP], l, xl, yl);
+        const float light = value_of(t[LIGHT], l, xl, yl);
+        float *const to = node + first + l;
+        to[X * stride] = xl;
+        to[Y * stride] = yl;
+        to[BX * stride] = lands ? value_of(t[BX], l, xl, yl) : 0;
+        to[BY * stride] = lands ? value_of(t[BY], l, xl, yl) : 0;
+        to[LIGHT * stride] = lands && light > 0 ? light / det[l] : 0;
+        to[CLIP * stride] = lands && clip * clip < 4 ? clip * clip : 4;
     }
 }
 
@@ -235,8 +249,8 @@ static void find_rect(wo_point_image *image, size_t stride)
             for (int k = 0; k < 2; k++) {
                 const float at =
                     image->node[((size_t)line * VALUES + (size_t)k) * stride + (size_t)i];
-                low[k] = fminf(low[k], at);
-                high[k] = fmaxf(high[k], at);
+                low[k] = at < low[k] ? at : low[k];
+                high[k] = at > high[k] ? at : high[k];
             }
     image->rect =
         (wo_rect){(int32_t)floorf(low[0] + 0.5f), (int32_t)floorf(low[1] + 0.5f),
@@ -249,7 +263,7 @@ void wo_point_image_make(const wo_lens *lens, double x, double y, double v, floa
     const double reach = lens->reach(lens->self, v, v);
     *image = (wo_point_image){.grid = wo_iris_grid_for(lens->iris.grids, reach), .v = v};
     const wo_iris_grid *g = image->grid;
-    const size_t stride = padded(g);
+    const size_t stride = wo_node_stride(g);
     const int points = wo_iris_grid_points(g);
     int group[16];
     image->lines = merge(lens, g, x, y, v, group);
@@ -269,341 +283,43 @@ void wo_point_image_make(const wo_lens *lens, double x, double y, double v, floa
         for (end = line; end < lines && group[end] == group[line]; end++)
             for (int c = 0; c < 3; c++)
                 colour[c] += lens->iris.line_weight[end][c] / lines;
-        float white[FIELDS];
+        float white[FIELDS][LANES] = {{0}};
         for (int k = 0; k < FIELDS; k++) {
             lens->iris.rays(lens->self, x + f.place[k][0], y + f.place[k][1], (line + end) / 2,
                             g->s, g->t, points, &rays[k]);
-            white[k] = (float)white_of(g, &rays[k]);
+            white[k][0] = (float)white_of(g, &rays[k]);
         }
-        float terms[TERMS];
+        float terms[TERMS][LANES];
         terms_of(&f, white, terms);
         for (int c = 0; c < 3; c++)
             for (int k = 0; k < TERMS; k++)
-                image->white[c][k] += (float)colour[c] * terms[k];
-        land(&f, rays, points, v, reach, image->node + (size_t)group[line] * VALUES * stride,
-             stride);
+                image->white[c][k] += (float)colour[c] * terms[k][0];
+        for (int i = 0; i < points; i += LANES)
+            land_some(&f, rays, i, (float)v, (float)(1.2 * reach + 1),
+                      image->node + (size_t)group[line] * VALUES * stride, stride);
     }
     find_rect(image, stride);
 }
 
-/* A corner of a triangle, or between two of them; px, pixel 0 is 0..1. */
-typedef struct corner {
-    double x, y;
-} corner;
-
-/* Sums that are drawn into: differences along each row, whose running sums are the picture. */
-typedef struct canvas {
-    double *sums; /* [rows][width + 2][channels] */
-    wo_rect rect; /* of the rows */
-    ptrdiff_t width;
-} canvas;
-
-/* Channels: colours; then for each kind of rays its light and that times b. */
-enum { KIND = 3, CHANNELS_MAX = 3 + 2 * KIND };
-
-static inline void add(double *to, const double *value, double times, int channels)
+void wo_point_image_dots(const wo_point_image *image, int line, wo_point_dot *dot, void *user)
 {
-    for (int k = 0; k < channels; k++)
-        to[k] += value[k] * times;
-}
-
-/* What lies right of the edge from (x0, y0) to (x1, y1) gets value, times how much of its height
-   the edge passes: less it when the edge goes up. */
-static inline void draw_edge(const canvas *c, corner from, corner to_corner, const double *value,
-                             int channels)
-{
-    const bool up = to_corner.y > from.y;
-    const double sign = up ? -1 : 1;
-    const corner low = up ? from : to_corner;
-    const corner high = up ? to_corner : from;
-    const double x0 = low.x - c->rect.x1;
-    const double y0 = low.y - c->rect.y1;
-    const double x1 = high.x - c->rect.x1;
-    const double y1 = high.y - c->rect.y1;
-    const double rows = wo_rect_height(c->rect);
-    if (!(y1 > 0 && y0 < rows && y1 > y0))
-        return;
-    const double slope = (x1 - x0) / (y1 - y0);
-    const double end = fmin(y1, rows);
-    double y = fmax(y0, 0);
-    double x = x0 + (y - y0) * slope;
-    for (int32_t row = (int32_t)y; row < end; row++) {
-        const double y_next = fmin(row + 1.0, end);
-        const double x_next = y_next == y1 ? x1 : x0 + (y_next - y0) * slope;
-        double *to = c->sums + row * c->width * channels;
-        const double left = fmin(x, x_next);
-        const double right = fmax(x, x_next);
-        const double tall = sign * (y_next - y);
-        int32_t column = (int32_t)left;
-        if (right <= column + 1.0) {
-            const double inside = 0.5 * (left + right) - column;
-            add(to + column * channels, value, tall * (1 - inside), channels);
-            add(to + (column + 1) * channels, value, tall * inside, channels);
-        } else {
-            const double a_px = tall / (right - left);
-            for (double at = left; at < right; column++) {
-                const double next = fmin(column + 1.0, right);
-                const double inside = 0.5 * (at + next) - column;
-                add(to + column * channels, value, a_px * (next - at) * (1 - inside), channels);
-                add(to + (column + 1) * channels, value, a_px * (next - at) * inside, channels);
-                at = next;
-            }
-        }
-        y = y_next;
-        x = x_next;
-    }
-}
-
-/* One wavelength being drawn. */
-typedef struct drawing {
-    const wo_point_image *image;
-    canvas to;
-    const float *x, *y, *bx, *by, *light, *clip;
-    const double *colour;
-    double mean; /* of the colours */
-} drawing;
-
-static inline corner corner_at(const drawing *d, int i)
-{
-    return (corner){(double)d->x[i] + 0.5, (double)d->y[i] + 0.5};
-}
-
-/* What a triangle sends: light, and to its kind of rays that times its mean ray. */
-static inline void send(const drawing *d, const int at[3], double light, bool mirrored, int colours,
-                        bool rays, double *value)
-{
-    for (int k = 0; k < colours; k++)
-        value[k] = light * d->colour[k];
-    if (!rays)
-        return;
-    for (int k = 0; k < 2 * KIND; k++)
-        value[colours + k] = 0;
-    double *const to = value + colours + (mirrored ? KIND : 0);
-    to[0] = light * d->mean;
-    to[1] = to[0] / 3 * (double)(d->bx[at[0]] + d->bx[at[1]] + d->bx[at[2]]);
-    to[2] = to[0] / 3 * (double)(d->by[at[0]] + d->by[at[1]] + d->by[at[2]]);
-}
-
-/* A thin triangle is a line from its first to its farthest corner. */
-static void draw_thin(const canvas *c, const corner p[3], const double *value, int channels)
-{
-    int a = 0;
-    int b = 1;
-    double longest = 0;
-    for (int k = 0; k < 3; k++) {
-        const int n = (k + 1) % 3;
-        const double length = hypot(p[n].x - p[k].x, p[n].y - p[k].y);
-        if (length > longest) {
-            longest = length;
-            a = k;
-            b = n;
-        }
-    }
-    const int pieces = (int)ceil(2 * longest) + 1;
-    for (int i = 0; i < pieces; i++) {
-        const double part = (i + 0.5) / pieces;
-        const int32_t x = (int32_t)floor(p[a].x + part * (p[b].x - p[a].x));
-        const int32_t y = (int32_t)floor(p[a].y + part * (p[b].y - p[a].y));
-        if (y < c->rect.y1 || y >= c->rect.y2)
-            continue;
-        double *to = c->sums + ((y - c->rect.y1) * c->width + x - c->rect.x1) * channels;
-        add(to, value, 1.0 / pieces, channels);
-        add(to + channels, value, -1.0 / pieces, channels);
-    }
-}
-
-/* The part of a triangle where the clip, linear between the corners, is no more than 1. */
-static int open_polygon(const drawing *d, const int at[3], corner out[4])
-{
-    int n = 0;
-    for (int k = 0; k < 3; k++) {
-        const int i = at[k];
-        const int j = at[(k + 1) % 3];
-        const double ci = (double)d->clip[i];
-        const double cj = (double)d->clip[j];
-        const corner p = corner_at(d, i);
-        const corner q = corner_at(d, j);
-        if (ci <= 1)
-            out[n++] = p;
-        if ((ci <= 1) != (cj <= 1)) {
-            const double part = (1 - ci) / (cj - ci);
-            out[n++] = (corner){rint((p.x + part * (q.x - p.x)) / PLACE_PX) * PLACE_PX,
-                                rint((p.y + part * (q.y - p.y)) / PLACE_PX) * PLACE_PX};
-        }
-    }
-    return n;
-}
-
-/* Light per area of a triangle, for its edges; all 0 when it was drawn at once. */
-static inline void triangle(const drawing *d, int ring, int spoke, int kind, int colours, bool rays,
-                            double *value)
-{
-    const int channels = colours + (rays ? 2 * KIND : 0);
-    const wo_iris_grid *g = d->image->grid;
-    int at[3];
-    corners_of(g, ring, spoke, kind, at);
-    const int open = (d->clip[at[0]] <= 1) + (d->clip[at[1]] <= 1) + (d->clip[at[2]] <= 1);
-    const double share = (double)g->light[2 * (ring * g->spokes + spoke) + kind];
-    memset(value, 0, (size_t)channels * sizeof *value);
-    if (open == 0 || !(share > 0))
-        return;
-    const corner p[3] = {corner_at(d, at[0]), corner_at(d, at[1]), corner_at(d, at[2])};
-    if (fmax(p[0].y, fmax(p[1].y, p[2].y)) < d->to.rect.y1 ||
-        fmin(p[0].y, fmin(p[1].y, p[2].y)) > d->to.rect.y2)
-        return;
-    const double light = share / 3 * (double)(d->light[at[0]] + d->light[at[1]] + d->light[at[2]]);
-    const double area =
-        0.5 * ((p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x));
-    double sent[CHANNELS_MAX];
-    if (fabs(area) < THIN_PX2) {
-        const double part =
-            open_part((double)d->clip[at[0]], (double)d->clip[at[1]], (double)d->clip[at[2]]);
-        send(d, at, light * part, area < 0, colours, rays, sent);
-        draw_thin(&d->to, p, sent, channels);
-        return;
-    }
-    send(d, at, light / area, area < 0, colours, rays, sent);
-    if (open == 3) {
-        memcpy(value, sent, (size_t)channels * sizeof *value);
-        return;
-    }
-    corner polygon[4];
-    const int n = open_polygon(d, at, polygon);
-    for (int k = 0; k < n; k++)
-        draw_edge(&d->to, polygon[k], polygon[(k + 1) % n], sent, channels);
-}
-
-static inline void shared_edge(const drawing *d, int from, int to, const double *left,
-                               const double *right, int channels)
-{
-    double value[CHANNELS_MAX];
-    double most = 0;
-    for (int k = 0; k < channels; k++) {
-        value[k] = left[k] - right[k];
-        most += fabs(value[k]);
-    }
-    if (most == 0)
-        return;
-    draw_edge(&d->to, corner_at(d, from), corner_at(d, to), value, channels);
-}
-
-/* Every edge is drawn once, with the difference between its two triangles. room: three rows of
-   densities. */
-static inline void draw_line(const drawing *d, int colours, bool rays, double *room)
-{
-    const wo_iris_grid *g = d->image->grid;
-    const int channels = colours + (rays ? 2 * KIND : 0);
-    const int n = g->spokes;
-    const size_t row = (size_t)n * (size_t)channels;
-    double *below = room;       /* outer triangles of the ring before */
-    double *outer = room + row; /* of this ring */
-    double *inner = room + 2 * row;
-    memset(below, 0, row * sizeof *below);
-    memset(inner, 0, row * sizeof *inner);
-    for (int i = 0; i <= g->rings; i++) {
-        for (int j = 0; j < n; j++) {
-            double *const o = outer + j * channels;
-            double *const in = inner + j * channels;
-            if (i < g->rings) {
-                triangle(d, i, j, 0, colours, rays, o);
-                triangle(d, i, j, 1, colours, rays, in);
-            } else {
-                memset(in, 0, (size_t)channels * sizeof *in);
-            }
-        }
-        for (int j = 0; j < n; j++) {
-            const int next = j + 1 < n ? j + 1 : 0;
-            const int before = j > 0 ? j - 1 : n - 1;
-            const int at = i * n + j;
-            shared_edge(d, at, i * n + next, below + j * channels, inner + j * channels, channels);
-            if (i == g->rings)
-                continue;
-            shared_edge(d, at, at + n, outer + j * channels, inner + before * channels, channels);
-            shared_edge(d, at, (i + 1) * n + next, inner + j * channels, outer + j * channels,
-                        channels);
-        }
-        double *const swap = below;
-        below = outer;
-        outer = swap;
-    }
-}
-
-size_t wo_point_image_draw_room(const wo_lens *lens, double v, int32_t rows)
-{
-    const wo_iris_grid *g = wo_iris_grid_for(lens->iris.grids, lens->reach(lens->self, v, v));
-    const size_t width = 2 * (size_t)wo_point_image_reach(lens, v) + 3;
-    return CHANNELS_MAX * (3 * (size_t)g->spokes + width * (size_t)rows);
-}
-
-/* Running sums become pixels. */
-static void finish_row(const wo_point_image *image, int32_t y, const double *sums, int colours,
-                       bool rays, wo_point_pixel *pixels)
-{
-    const int channels = colours + (rays ? 2 * KIND : 0);
-    double sum[CHANNELS_MAX] = {0};
-    for (int32_t x = image->rect.x1; x < image->rect.x2; x++, sums += channels) {
-        wo_point_pixel *const p = &pixels[x - image->rect.x1];
-        *p = (wo_point_pixel){.light = {0}};
-        for (int k = 0; k < channels; k++)
-            sum[k] += sums[k];
-        for (int c = 0; c < 3; c++) {
-            const double white = (double)value_at(image->white[c], (float)x, (float)y);
-            const double light = sum[colours == 3 ? c : 0];
-            if (light > LIGHT_LEAST && white > 0.01 * (double)image->white[c][0])
-                p->light[c] = (float)(light / white);
-        }
-        const double *const kinds = sum + colours;
-        const double all = rays ? fmax(kinds[0], 0) + fmax(kinds[KIND], 0) : 0;
-        for (int i = 0; i < 2 && all > LIGHT_LEAST; i++) {
-            const double *const kind = kinds + i * KIND;
-            if (!(kind[0] > 1e-3 * all))
-                continue;
-            p->part[i] = (float)(kind[0] / all);
-            p->b[i][0] = (float)(kind[1] / kind[0]);
-            p->b[i][1] = (float)(kind[2] / kind[0]);
-        }
-    }
-}
-
-static inline void draw(const wo_point_image *image, int32_t y1, int32_t y2, int colours, bool rays,
-                        double *room, wo_point_pixel *pixels)
-{
-    const int channels = colours + (rays ? 2 * KIND : 0);
     const wo_iris_grid *g = image->grid;
-    const size_t stride = padded(g);
-    const int32_t width = wo_rect_width(image->rect);
-    drawing d = {.image = image,
-                 .to = {.sums = room + 3 * (size_t)g->spokes * (size_t)channels,
-                        .rect = {image->rect.x1, y1, image->rect.x2, y2},
-                        .width = width + 2}};
-    memset(d.to.sums, 0,
-           (size_t)(y2 - y1) * (size_t)(width + 2) * (size_t)channels * sizeof *d.to.sums);
-    for (int line = 0; line < image->lines; line++) {
-        const float *m = image->node + (size_t)line * VALUES * stride;
-        d.x = m;
-        d.y = m + stride;
-        d.bx = m + 2 * stride;
-        d.by = m + 3 * stride;
-        d.light = m + 4 * stride;
-        d.clip = m + 5 * stride;
-        d.colour = image->line_colour[line];
-        d.mean = colours == 3 ? (d.colour[0] + d.colour[1] + d.colour[2]) / 3 : d.colour[0];
-        draw_line(&d, colours, rays, room);
-    }
-    for (int32_t y = y1; y < y2; y++)
-        finish_row(image, y, d.to.sums + (y - y1) * d.to.width * channels, colours, rays,
-                   pixels + (ptrdiff_t)(y - y1) * width);
-}
-
-void wo_point_image_draw(const wo_point_image *image, int32_t y1, int32_t y2, bool rays,
-                         double *room, wo_point_pixel *pixels)
-{
-    if (image->colours == 3 && rays)
-        draw(image, y1, y2, 3, true, room, pixels);
-    else if (image->colours == 3)
-        draw(image, y1, y2, 3, false, room, pixels);
-    else if (rays)
-        draw(image, y1, y2, 1, true, room, pixels);
-    else
-        draw(image, y1, y2, 1, false, room, pixels);
+    const size_t stride = wo_node_stride(g);
+    const float *m = image->node + (size_t)line * VALUES * stride;
+    for (int i = 0; i < g->rings; i++)
+        for (int j = 0; j < g->spokes; j++)
+            for (int kind = 0; kind < 2; kind++) {
+                int at[3];
+                wo_cell_corners(g, i, j, kind, at);
+                double mean[VALUES] = {0};
+                for (int k = 0; k < VALUES; k++)
+                    for (int n = 0; n < 3; n++)
+                        mean[k] += (double)m[(size_t)k * stride + (size_t)at[n]] / 3;
+                const float *clip = m + CLIP * stride;
+                const double light =
+                    mean[LIGHT] * (double)g->light[2 * (i * g->spokes + j) + kind] *
+                    wo_open_part((double)clip[at[0]], (double)clip[at[1]], (double)clip[at[2]]);
+                if (light > 0)
+                    dot(user, mean[X], mean[Y], light);
+            }
 }

@@ -17,6 +17,7 @@
    right to second order, and so is the light: 1 / |I + dD/dx|, over what a white picture would get.
  */
 enum { WO_POINT_TERMS = 6 };
+
 typedef struct wo_point_image {
     const wo_iris_grid *grid;
     int lines;   /* that are drawn: wavelengths that part by less than MERGE px share one */
@@ -51,6 +52,12 @@ size_t wo_point_image_draw_room(const wo_lens *lens, double v, int32_t rows);
    row gets does not depend on the others that are asked for. Any thread. */
 void wo_point_image_draw(const wo_point_image *image, int32_t y1, int32_t y2, bool rays,
                          double *room, wo_point_pixel *pixels);
+
+/* The triangles of one line as points, for images that are not larger than a few pixels: calls dot
+   for each that gets light through, in px from the point's pixel. Light is without the division by
+   white. Any thread. */
+typedef void wo_point_dot(void *user, double x, double y, double light);
+void wo_point_image_dots(const wo_point_image *image, int line, wo_point_dot *dot, void *user);
 
 /* Largest distance of a pixel of such an image from its point; no rect is larger. */
 int32_t wo_point_image_reach(const wo_lens *lens, double v);
