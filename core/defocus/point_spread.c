@@ -174,8 +174,13 @@ static wo_status raster_image(const wo_context *context, const wo_lens *lens, do
         return WO_ERR_NOMEM;
     wo_point_image image;
     wo_point_image_make(lens, x, y, v, memory, &image);
-    wo_status status =
-        make(context, wo_point_image_reach(lens, v) + 1, lens->colours ? 4 : 1, raster, error);
+    const wo_rect r = image.rect;
+    const int32_t sides[] = {-r.x1, -r.y1, r.x2 - 1, r.y2 - 1};
+    int32_t reach = 0;
+    for (int i = 0; i < 4; i++)
+        reach = sides[i] > reach ? sides[i] : reach;
+    /* Dots go to the neighbours of their pixel, too. */
+    wo_status status = make(context, reach + 1, lens->colours ? 4 : 1, raster, error);
     if (status == WO_OK && lens->reach(lens->self, v, v) >= SMOOTH_PX)
         status = draw_image(context, lens, &image, raster, error);
     else
