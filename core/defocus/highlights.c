@@ -121,8 +121,8 @@ static float fade(double reach)
     return (float)(t >= 1 ? 1 : t * t * (3 - 2 * t));
 }
 
-/* Light of a highlight that stays. Rays of a lens with a table each carry one wavelength, and what is
-   left to them shows as coloured grain: little is, from twice the level on. */
+/* Light of a highlight that stays. Rays of a lens with a table each carry one wavelength, and what
+   is left to them shows as coloured grain: little is, from twice the level on. */
 static float rest_of(const wo_lens *lens, float peak)
 {
     const float part = lens->connect ? 0 : fminf(peak / WO_HIGHLIGHT_LEVEL - 1, 1);

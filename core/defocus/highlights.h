@@ -11,7 +11,7 @@
    and joined to each output pixel by the one ray that connects them, if nothing is in between: no
    noise, exact energy. (Sampling the lights in place of the lens, as path tracers do.) Of lenses
    that do not know that ray the picture of each highlight is drawn (point_image.h). */
-#define WO_HIGHLIGHT_LEVEL 4.0f /* scene-linear; 1 is diffuse white */
+#define WO_HIGHLIGHT_LEVEL 4.0f  /* scene-linear; 1 is diffuse white */
 #define WO_HIGHLIGHT_REST  0.25f /* what bright ones keep whose picture is drawn */
 /* px of blur: smaller is left to the rays, and from WHOLE on no light above the level is; between,
    a part that rises smoothly. */
