@@ -61,9 +61,10 @@ typedef struct wo_lens {
     /* px of blur radius per dioptre, for comparing vergences. */
     double px_per_dioptre;
     /* Density of rays, per px^2, that cross the picture at offset (dx, dy) from the sensor point at
-       vergence v, and the ray itself; 0 when none does. NULL = not known in closed form. */
+       vergence v, and the ray itself; 0 when none does. NULL = not known in closed form: then iris
+       is there, if points are to be drawn. */
     double (*connect)(const void *self, double dx, double dy, double v, double line[4]);
-    wo_lens_iris iris; /* iris.rays NULL = not known; with connect it is not needed */
+    wo_lens_iris iris; /* iris.rays NULL = not known */
 } wo_lens;
 
 /* The thin lens with an aperture shape: K u (v - vf). stretch: vertical px per horizontal px. */
