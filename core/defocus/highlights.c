@@ -22,8 +22,10 @@ typedef struct take_job {
 } take_job;
 
 /* Vergences of highlights are rounded to steps of 1/QUANTUM px of blur, so that few shares are
-   worked out; CACHE of them are kept. */
-#define QUANTUM 32.0
+   worked out; CACHE of them are kept. Images that are drawn are rounded to twice as much for each
+   QUANTUM_EVEN px. */
+#define QUANTUM      32.0
+#define QUANTUM_EVEN 16.0
 enum { CACHE = 64 };
 
 typedef struct share_cache {
@@ -137,7 +139,10 @@ static bool is_highlight(const take_job *job, const wo_sheet *sheet, size_t at, 
     if (!(peak > WO_HIGHLIGHT_LEVEL) || isnan(sheet->v[at]))
         return false;
     const wo_lens *lens = job->lens;
-    const double step = lens->px_per_dioptre * QUANTUM;
+    double step = lens->px_per_dioptre * QUANTUM;
+    const double radius = fabs((double)sheet->v[at]) * lens->px_per_dioptre;
+    if (!lens->connect && radius > QUANTUM_EVEN)
+        step /= exp2(floor(log2(radius / QUANTUM_EVEN)) + 1);
     found->v = (float)(rint(sheet->v[at] * step) / step);
     found->reach = (float)lens->reach(lens->self, found->v, found->v);
     const double exact = lens->reach(lens->self, sheet->v[at], sheet->v[at]);

@@ -13,7 +13,7 @@
 /* Highlights of one vergence in a square of SQUARE px share one image, that of its middle. Images
    are made for as many of these groups at a time as fit into BATCH floats; then bands of BAND rows
    are drawn. */
-enum { SQUARE = 8, BAND = 32, BATCH = 1 << 22 };
+enum { SQUARE = 8, BAND = 64, BATCH = 1 << 22 };
 
 typedef struct group {
     size_t first, end; /* in the list */

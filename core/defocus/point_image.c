@@ -6,8 +6,9 @@
 #include <string.h>
 
 /* Wavelengths that land no farther apart than this are drawn as one. px */
-#define MERGE_PX 0.2
-#define PI       3.14159265358979323846
+#define MERGE_PX   0.2
+#define MERGE_PART 0.004 /* of the radius, where that is more */
+#define PI         3.14159265358979323846
 
 /* Where a picture is drawn together more than this by a change of the lens over the blur, nothing
    is known. */
@@ -85,13 +86,17 @@ static double white_of(const wo_iris_grid *g, const wo_iris_rays *rays)
 enum { TERMS = WO_POINT_TERMS };
 
 typedef struct field {
+    int count;               /* FIELDS, or 1 where the lens is the same everywhere */
     double place[FIELDS][2]; /* px */
     float share[FIELDS][TERMS];
 } field;
 
-static void make_field(double radius, field *f)
+static void make_field(double radius, bool same, field *f)
 {
-    *f = (field){.share = {{1, 0, 0, (float)(-1 / (radius * radius)), 0, 0}}};
+    *f = (field){.count = 1, .share = {{1}}};
+    if (same)
+        return;
+    *f = (field){.count = FIELDS, .share = {{1, 0, 0, (float)(-1 / (radius * radius)), 0, 0}}};
     for (int k = 1; k < FIELDS; k++) {
         const double angle = 2 * PI * k / (FIELDS - 1);
         const double part = 2.0 / (FIELDS - 1);
@@ -116,7 +121,7 @@ static inline void terms_of(const field *f, const float value[FIELDS][LANES],
         out[3][l] = f->share[0][3] * value[0][l];
         out[1][l] = out[2][l] = out[4][l] = out[5][l] = 0;
     }
-    for (int k = 1; k < FIELDS; k++)
+    for (int k = 1; k < f->count; k++)
         for (int n = 1; n < TERMS; n++)
             for (int l = 0; l < LANES; l++)
                 out[n][l] += f->share[k][n] * value[k][l];
@@ -149,9 +154,10 @@ static inline void step(float d[2][TERMS][LANES], float x[LANES], float y[LANES]
 }
 
 /* One value of LANES rays of every field point. */
-static void gather(const wo_iris_rays rays[FIELDS], int k, int first, float out[FIELDS][LANES])
+static void gather(const wo_iris_rays rays[FIELDS], int count, int k, int first,
+                   float out[FIELDS][LANES])
 {
-    for (int f = 0; f < FIELDS; f++) {
+    for (int f = 0; f < count; f++) {
         const float *const from[VALUES] = {rays[f].ax, rays[f].ay,     rays[f].bx,
                                            rays[f].by, rays[f].weight, rays[f].clip};
         memcpy(out[f], from[k] + first, LANES * sizeof(float));
@@ -164,8 +170,8 @@ static void land_some(const field *f, const wo_iris_rays rays[FIELDS], int first
 {
     float from[VALUES][FIELDS][LANES];
     for (int k = 0; k < VALUES; k++)
-        gather(rays, k, first, from[k]);
-    for (int i = 0; i < FIELDS; i++)
+        gather(rays, f->count, k, first, from[k]);
+    for (int i = 0; i < f->count; i++)
         for (int l = 0; l < LANES; l++) {
             from[X][i][l] += v * from[BX][i][l];
             from[Y][i][l] += v * from[BY][i][l];
@@ -216,6 +222,7 @@ static int merge(const wo_lens *lens, const wo_iris_grid *g, double x, double y,
         t[i] = g->t[at];
     }
     float out[2][VALUES][PROBES + WO_LANES];
+    const double limit = fmax(MERGE_PX, MERGE_PART * lens->reach(lens->self, v, v));
     int groups = 0;
     for (int line = 0; line < lens->iris.lines; line++) {
         const bool first = line == 0;
@@ -229,7 +236,7 @@ static int merge(const wo_lens *lens, const wo_iris_grid *g, double x, double y,
             if (o[CLIP][i] <= 1)
                 apart = fmax(apart, hypot((double)dx, (double)dy));
         }
-        if (apart > MERGE_PX) {
+        if (apart > limit) {
             groups++;
             memcpy(out[0], out[1], sizeof out[0]);
         }
@@ -270,7 +277,7 @@ void wo_point_image_make(const wo_lens *lens, double x, double y, double v, floa
     image->colours = image->lines > 1 ? 3 : 1;
     image->node = memory + FIELDS * VALUES * stride;
     field f;
-    make_field(0.8 * fmax(reach, 4), &f);
+    make_field(0.8 * fmax(reach, 4), lens->iris.same, &f);
     wo_iris_rays rays[FIELDS];
     for (int k = 0; k < FIELDS; k++) {
         float *m = memory + (size_t)k * VALUES * stride;
@@ -284,7 +291,7 @@ void wo_point_image_make(const wo_lens *lens, double x, double y, double v, floa
             for (int c = 0; c < 3; c++)
                 colour[c] += lens->iris.line_weight[end][c] / lines;
         float white[FIELDS][LANES] = {{0}};
-        for (int k = 0; k < FIELDS; k++) {
+        for (int k = 0; k < f.count; k++) {
             lens->iris.rays(lens->self, x + f.place[k][0], y + f.place[k][1], (line + end) / 2,
                             g->s, g->t, points, &rays[k]);
             white[k][0] = (float)white_of(g, &rays[k]);

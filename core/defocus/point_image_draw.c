@@ -95,7 +95,8 @@ typedef struct drawing {
     canvas to;
     const float *x, *y, *bx, *by, *light, *clip;
     const double *colour;
-    double mean; /* of the colours */
+    double mean;     /* of the colours */
+    float low, high; /* y of nodes that touch the rows */
 } drawing;
 
 static inline corner corner_at(const drawing *d, int i)
@@ -177,15 +178,18 @@ static inline void triangle(const drawing *d, int ring, int spoke, int kind, int
     const wo_iris_grid *g = d->image->grid;
     int at[3];
     wo_cell_corners(g, ring, spoke, kind, at);
+    memset(value, 0, (size_t)channels * sizeof *value);
+    const float y0 = d->y[at[0]];
+    const float y1 = d->y[at[1]];
+    const float y2 = d->y[at[2]];
+    if ((y0 < d->low && y1 < d->low && y2 < d->low) ||
+        (y0 > d->high && y1 > d->high && y2 > d->high))
+        return;
     const int open = (d->clip[at[0]] <= 1) + (d->clip[at[1]] <= 1) + (d->clip[at[2]] <= 1);
     const double share = (double)g->light[2 * (ring * g->spokes + spoke) + kind];
-    memset(value, 0, (size_t)channels * sizeof *value);
     if (open == 0 || !(share > 0))
         return;
     const corner p[3] = {corner_at(d, at[0]), corner_at(d, at[1]), corner_at(d, at[2])};
-    if (most(p[0].y, most(p[1].y, p[2].y)) < d->to.rect.y1 ||
-        least(p[0].y, least(p[1].y, p[2].y)) > d->to.rect.y2)
-        return;
     const double light = share / 3 * (double)(d->light[at[0]] + d->light[at[1]] + d->light[at[2]]);
     const double area =
         0.5 * ((p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x));
@@ -211,6 +215,8 @@ static inline void triangle(const drawing *d, int ring, int spoke, int kind, int
 static inline void shared_edge(const drawing *d, int from, int to, const double *left,
                                const double *right, int channels)
 {
+    if ((d->y[from] < d->low && d->y[to] < d->low) || (d->y[from] > d->high && d->y[to] > d->high))
+        return;
     double value[CHANNELS_MAX];
     double most = 0;
     for (int k = 0; k < channels; k++) {
@@ -313,6 +319,8 @@ static inline void draw(const wo_point_image *image, int32_t y1, int32_t y2, int
                         .width = width + 2}};
     memset(d.to.sums, 0,
            (size_t)(y2 - y1) * (size_t)(width + 2) * (size_t)channels * sizeof *d.to.sums);
+    d.low = (float)y1 - 0.5f;
+    d.high = (float)y2 - 0.5f;
     for (int line = 0; line < image->lines; line++) {
         const float *m = image->node + (size_t)line * WO_NODE_VALUES * stride;
         d.x = m;

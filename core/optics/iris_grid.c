@@ -12,8 +12,8 @@ enum { RINGS_AN_ONION = 4, RINGS_OF_GRAIN = 72, SUB = 4 };
 
 static void choose_size(const wo_aperture_shape *shape, int index, wo_iris_grid *grid)
 {
-    static const int sizes[WO_IRIS_GRIDS][2] = {{8, 48},   {16, 64},  {24, 96},
-                                                {32, 128}, {48, 192}, {64, 256}};
+    static const int sizes[WO_IRIS_GRIDS][2] = {{8, 48},  {16, 64},  {20, 80},
+                                                {24, 96}, {32, 128}, {40, 160}};
     const wo_aperture *a = &shape->aperture;
     grid->reach = index < WO_IRIS_GRIDS - 1 ? 8 << index : INFINITY;
     grid->rings = sizes[index][0];

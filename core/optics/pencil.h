@@ -35,6 +35,7 @@ typedef struct wo_iris_rays {
 /* What a lens without connect says of its iris, so that pictures of a point can be drawn. */
 typedef struct wo_lens_iris {
     const wo_iris_grid *grids;      /* [WO_IRIS_GRIDS] */
+    bool same;                      /* for every sensor point */
     int lines;                      /* wavelengths */
     const double (*line_weight)[3]; /* [lines] in red, green and blue; the mean of each is 1 */
     /* Rays of a wavelength at the sensor point (x, y) px through count points (s, t), whose arrays

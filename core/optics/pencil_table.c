@@ -394,6 +394,18 @@ void wo_table_pencils_destroy(const wo_context *context, wo_table_pencils **penc
     *pencils = NULL;
 }
 
+/* Have all field points that get light the same rays? */
+static bool same_nodes(const wo_lens_table *table)
+{
+    for (int line = 0; line < table->lines; line++) {
+        const wo_table_node *first = &table->node[line * table->nodes];
+        for (int i = 1; i < table->lit; i++)
+            if (memcmp(first, first + i, sizeof *first) != 0)
+                return false;
+    }
+    return true;
+}
+
 wo_lens wo_table_pencils_lens(const wo_table_pencils *pencils)
 {
     return (wo_lens){.self = pencils,
@@ -405,6 +417,7 @@ wo_lens wo_table_pencils_lens(const wo_table_pencils *pencils)
                      .reach = table_reach,
                      .px_per_dioptre = pencils->options.px_per_dioptre,
                      .iris = {.grids = pencils->grids,
+                              .same = !pencils->has_doors && same_nodes(pencils->table),
                               .lines = pencils->table->lines,
                               .line_weight = pencils->bands.weight,
                               .rays = table_iris_rays}};
