@@ -7,11 +7,36 @@
 
 float wo_shown(float a, float b)
 {
-    /* The slope over as much as the mean may be wrong: what is white anyway may be as noisy as it
-       likes. */
+    /* What is white anyway may be as noisy as it likes. */
     const float mean = 0.5f * (a + b);
-    const float reach = fmaxf(0.5f * (float)WO_HALVES_TO_ERROR * fabsf(a - b), 1e-4f);
+    const float reach = fmaxf(0.5f * fabsf(a - b), 1e-4f);
     return (wo_display(mean + reach) - wo_display(mean - reach)) / (2 * reach);
+}
+
+float wo_noise_add(wo_noise *noise, const float a[3], const float b[3], const float light[3])
+{
+    float sum = 0;
+    for (int k = 0; k < 3; k++) {
+        const float d = 0.5f * (wo_display(a[k] + light[k]) - wo_display(b[k] + light[k]));
+        const float all = fmaxf(fabsf(a[k]) + fabsf(b[k]), 1e-4f);
+        sum += d * d * (1.0f / 3);
+        noise->square += (double)(d * d);
+        noise->apart += (double)(d * d * fminf(fabsf(a[k] - b[k]) / all, 1));
+    }
+    return sum;
+}
+
+/* Parts of the light from where to where a lattice turns into chance. Measured on footage. */
+#define APART_FROM 0.35
+#define APART_TO   0.65
+
+double wo_noise_factor(const wo_noise *noise)
+{
+    const double lattice = WO_HALVES_TO_ERROR * WO_HALVES_TO_ERROR;
+    const double chance = WO_CHANCE_TO_ERROR * WO_CHANCE_TO_ERROR;
+    const double apart = noise->square > 0 ? noise->apart / noise->square : 0;
+    const double t = fmin(fmax((apart - APART_FROM) / (APART_TO - APART_FROM), 0), 1);
+    return lattice + (chance - lattice) * t * t * (3 - 2 * t);
 }
 
 static void scale_sums(wo_march_sums *sums, float scale)
@@ -81,7 +106,7 @@ bool wo_tile_sample(const wo_defocus *scene, wo_tile_work *work, wo_tile_error *
             return false;
         if (wo_ray_tile_straight(work->tile))
             return true;
-        const double e = WO_ERROR_SIGMAS * WO_HALVES_TO_ERROR * sqrt(error(user, work, sums));
+        const double e = WO_ERROR_SIGMAS * sqrt(error(user, work, sums));
         if (e <= scene->quality.target_error)
             return true;
         const double too_large =

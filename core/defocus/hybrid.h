@@ -25,11 +25,12 @@ enum {
     WO_HYBRID_REST = WO_HYBRID_FAR + WO_PART_SUMS, /* r g b a of what is neither */
     WO_HYBRID_LEFT = WO_HYBRID_REST + 4,           /* light that nothing stopped */
     WO_HYBRID_GUESSED,
-    WO_HYBRID_NOISE, /* near, far, rest: square of half the difference between the halves of the
-                        rays, in the displayed value */
-    WO_HYBRID_JITTER = WO_HYBRID_NOISE + 3, /* the same of near and far together, in square roots of
-                                               light, which do not end at white */
-    WO_HYBRID_PLANES
+    WO_HYBRID_NOISE,                        /* near, far, rest: variance in the displayed value */
+    WO_HYBRID_JITTER = WO_HYBRID_NOISE + 3, /* of near and far together: square of half the
+                                               difference between the halves of the rays, in square
+                                               roots of light, which do not end at white */
+    WO_HYBRID_LIGHT, /* red, green, blue of highlights, on top; only where the scene has some */
+    WO_HYBRID_PLANES = WO_HYBRID_LIGHT + 3
 };
 
 enum { WO_HYBRID_CELL = 8, WO_HYBRID_TAPS_MAX = 64, WO_HYBRID_KERNELS = 33 };

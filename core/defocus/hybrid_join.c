@@ -338,8 +338,10 @@ void wo_hybrid_join(const wo_hybrid *h, int32_t tx, int32_t ty, wo_tile_pixels *
                                     : own[y][x][k];
                 pixels->guessed[y][x0 + x] =
                     h->plane[WO_HYBRID_GUESSED][(low + y) * h->width + left + x];
-                facts->error[y][x0 + x] = (float)WO_HALVES_TO_ERROR * sqrtf(noise);
+                facts->error[y][x0 + x] = sqrtf(noise);
                 const ptrdiff_t at = (low + y) * h->width + left + x;
+                for (int k = 0; h->plane[WO_HYBRID_LIGHT] && k < 3; k++)
+                    c[k] += h->plane[WO_HYBRID_LIGHT + k][at];
                 facts->rays[y][x0 + x] = h->rays[tile];
                 facts->mask[y][x0 + x] *=
                     1 - part * ((cell->near > 0 ? mean_coverage(h, WO_HYBRID_NEAR, at) : 0) +

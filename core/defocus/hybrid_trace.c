@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* Near, far, rest, jitter. */
-enum { NOISES = WO_HYBRID_PLANES - WO_HYBRID_NOISE };
+enum { NOISES = WO_HYBRID_LIGHT - WO_HYBRID_NOISE };
 
 /* One pixel of sums, each part divided by the light of its colour. */
 typedef struct split {
@@ -60,7 +60,8 @@ static bool split_pixel(const wo_tile_work *work, const wo_march_sums *sums, int
 
 /* Squares of the noise of the parts, from two halves of the rays. Coverage and colour of a part
    err together: what counts is the part against that which fills the light left by it. */
-static void noise_of(const split *all, const split *a, const split *b, float noise[NOISES])
+static void noise_of(const split *all, const split *a, const split *b, const float light[3],
+                     float noise[NOISES])
 {
     for (int k = 0; k < 3; k++) {
         const int a_k = WO_PART_COVERAGE + k;
@@ -74,7 +75,7 @@ static void noise_of(const split *all, const split *a, const split *b, float noi
         const float d[3] = {near, far, rest};
         const float root = 0.25f * (near + far) / sqrtf(fmaxf(fabsf(all->c[k]), 1e-4f));
         noise[3] += root * root * (1.0f / 3);
-        const float slope = wo_shown(a->c[k], b->c[k]);
+        const float slope = wo_shown(a->c[k] + light[k], b->c[k] + light[k]);
         for (int n = 0; n < 3; n++) {
             const float e = 0.5f * slope * d[n];
             noise[n] += e * e * (1.0f / 3);
@@ -105,10 +106,18 @@ static void put(wo_hybrid *h, ptrdiff_t at, const split *s, float guessed,
         h->plane[WO_HYBRID_NOISE + n][at] = noise[n];
 }
 
+/* A tile on its way. */
+typedef struct tracing {
+    wo_hybrid *hybrid;
+    wo_tile_light light;
+} tracing;
+
 /* The parts of a pixel, and what its halves say of their noise. */
-static void look_at(const wo_tile_work *work, const wo_tile_sums *sums, int32_t row, int run_index,
-                    int i, split *all, float noise[NOISES])
+static void look_at(const tracing *t, const wo_tile_work *work, const wo_tile_sums *sums,
+                    int32_t row, int x, split *all, float noise[NOISES], wo_noise *tile)
 {
+    const int run_index = x % WO_PHASES;
+    const int i = x / WO_PHASES;
     const wo_march_sums *const halves = sums->halves[row][run_index];
     wo_march_sums both = halves[0];
     wo_march_add(&both, &halves[1]);
@@ -116,14 +125,18 @@ static void look_at(const wo_tile_work *work, const wo_tile_sums *sums, int32_t 
     memset(noise, 0, NOISES * sizeof *noise);
     if (split_pixel(work, &both, row, run_index, i, all) && sums->rays > 1 &&
         split_pixel(work, &halves[0], row, run_index, i, &half[0]) &&
-        split_pixel(work, &halves[1], row, run_index, i, &half[1]))
-        noise_of(all, &half[0], &half[1], noise);
+        split_pixel(work, &halves[1], row, run_index, i, &half[1])) {
+        noise_of(all, &half[0], &half[1], t->light[row][x], noise);
+        wo_noise_add(tile, half[0].c, half[1].c, t->light[row][x]);
+    }
 }
 
 /* What smoothing will leave of the noise, as far as this tile can tell. */
 static double error_of(void *user, const wo_tile_work *work, const wo_tile_sums *sums)
 {
-    const wo_hybrid *h = user;
+    const tracing *t = user;
+    const wo_hybrid *h = t->hybrid;
+    wo_noise tile = {0};
     double total = 0;
     for (int x0 = 0; x0 < WO_TILE_WIDTH; x0 += WO_HYBRID_CELL) {
         double noise[3] = {0};
@@ -133,7 +146,7 @@ static double error_of(void *user, const wo_tile_work *work, const wo_tile_sums 
             for (int x = x0; x < x0 + WO_HYBRID_CELL; x++) {
                 split s;
                 float one[NOISES];
-                look_at(work, sums, row, x % WO_PHASES, x / WO_PHASES, &s, one);
+                look_at(t, work, sums, row, x, &s, one, &tile);
                 for (int n = 0; n < 3; n++)
                     noise[n] += (double)one[n];
                 near[0] += (double)mean_coverage(s.near);
@@ -147,7 +160,7 @@ static double error_of(void *user, const wo_tile_work *work, const wo_tile_sums 
         total += noise[0] * (double)h->kernels[near_kernel].gain +
                  noise[1] * (double)h->kernels[far_kernel].gain + noise[2];
     }
-    return total / (WO_TILE_WIDTH * WO_TILE_HEIGHT);
+    return wo_noise_factor(&tile) * total / (WO_TILE_WIDTH * WO_TILE_HEIGHT);
 }
 
 bool wo_hybrid_trace(wo_hybrid *h, int32_t tx, int32_t ty, wo_report *part)
@@ -167,9 +180,12 @@ bool wo_hybrid_trace(wo_hybrid *h, int32_t tx, int32_t ty, wo_report *part)
                 h->plane[WO_HYBRID_LEFT][origin + row * h->width + x] = 1;
         return true;
     }
-    if (!wo_tile_sample(scene, &work, error_of, h, &sums, part))
+    tracing t = {.hybrid = h};
+    const bool lit = wo_tile_find_light(scene, tx, ty, t.light, part);
+    if (!wo_tile_sample(scene, &work, error_of, &t, &sums, part))
         return false;
     h->rays[tile] = (float)sums.rays;
+    wo_noise tile_noise = {0};
     for (int32_t row = 0; row < WO_TILE_HEIGHT; row++) {
         for (int x = 0; x < WO_TILE_WIDTH; x++) {
             const int run_index = x % WO_PHASES;
@@ -177,12 +193,19 @@ bool wo_hybrid_trace(wo_hybrid *h, int32_t tx, int32_t ty, wo_report *part)
             const wo_march_sums *const halves = sums.halves[row][run_index];
             split all;
             float noise[NOISES];
-            look_at(&work, &sums, row, run_index, i, &all, noise);
+            look_at(&t, &work, &sums, row, x, &all, noise, &tile_noise);
             put(h, origin + row * h->width + x, &all,
                 fminf(fmaxf((halves[0].guessed[i] + halves[1].guessed[i]) / (float)sums.scale, 0),
                       1),
                 noise);
+            for (int k = 0; lit && k < 3; k++)
+                h->plane[WO_HYBRID_LIGHT + k][origin + row * h->width + x] = t.light[row][x][k];
         }
     }
+    const float factor = (float)wo_noise_factor(&tile_noise);
+    for (int n = 0; n < WO_HYBRID_JITTER - WO_HYBRID_NOISE; n++)
+        for (int32_t row = 0; row < WO_TILE_HEIGHT; row++)
+            for (int x = 0; x < WO_TILE_WIDTH; x++)
+                h->plane[WO_HYBRID_NOISE + n][origin + row * h->width + x] *= factor;
     return true;
 }

@@ -13,10 +13,10 @@ typedef struct accumulate_job {
     wo_accumulator *worker; /* one for each */
 } accumulate_job;
 
-/* Mean squares of half the difference of the halves over the blocks of a tile, in the displayed
-   value. Returns the mean over the tile. */
-static double noise_of(const wo_accumulator *worker, double square[BLOCKS])
+/* Variances of the blocks of a tile, in the displayed value. Returns their mean. */
+static double noise_of(const wo_accumulator *worker, wo_tile_light light, double square[BLOCKS])
 {
+    wo_noise noise = {0};
     double all = 0;
     for (int b = 0; b < BLOCKS; b++) {
         double sum = 0;
@@ -27,12 +27,15 @@ static double noise_of(const wo_accumulator *worker, double square[BLOCKS])
             for (int half = 0; half < 2; half++)
                 known &= wo_accumulate_mean(worker, half, b * BLOCK + i % BLOCK, i / BLOCK, c[half],
                                             &guessed);
-            for (int k = 0; known && k < 3; k++) {
-                const float d = 0.5f * (c[1][k] - c[0][k]) * wo_shown(c[0][k], c[1][k]);
-                sum += (double)(d * d) / 3;
-            }
+            if (known)
+                sum += (double)wo_noise_add(&noise, c[0], c[1],
+                                            light[i / BLOCK][b * BLOCK + i % BLOCK]);
         }
         square[b] = sum / (BLOCK * WO_TILE_HEIGHT);
+    }
+    const double factor = wo_noise_factor(&noise);
+    for (int b = 0; b < BLOCKS; b++) {
+        square[b] *= factor;
         all += square[b] / BLOCKS;
     }
     return all;
@@ -62,14 +65,14 @@ static void tell(wo_tile_facts *facts, float rays, const double square[BLOCKS])
     for (int32_t y = 0; y < WO_TILE_HEIGHT; y++) {
         for (int32_t x = 0; x < WO_TILE_WIDTH; x++) {
             facts->rays[y][x] = rays;
-            facts->error[y][x] = (float)(WO_HALVES_TO_ERROR * sqrt(square[x / BLOCK]));
+            facts->error[y][x] = (float)sqrt(square[x / BLOCK]);
         }
     }
 }
 
 /* Views until the error is small enough (adaptive.h); *light: what one sample would sum up to. */
 static bool sample(const wo_accumulate *all, wo_accumulator *worker, int32_t tx, int32_t ty,
-                   int *rays, double *light, double square[BLOCKS])
+                   wo_tile_light highlights, int *rays, double *light, double square[BLOCKS])
 {
     const wo_defocus *scene = all->scene;
     const wo_quality *quality = &scene->quality;
@@ -85,7 +88,7 @@ static bool sample(const wo_accumulate *all, wo_accumulator *worker, int32_t tx,
             return false;
         *rays += lens->count;
         *light += scale * lens->count;
-        const double e = WO_ERROR_SIGMAS * WO_HALVES_TO_ERROR * sqrt(noise_of(worker, square));
+        const double e = WO_ERROR_SIGMAS * sqrt(noise_of(worker, highlights, square));
         if (!quality->adaptive || e <= quality->target_error)
             return true;
         const double too_large = quality->target_error > 0 ? e / quality->target_error : INFINITY;
@@ -109,16 +112,19 @@ static bool accumulate_tile(void *user, int32_t tx, int32_t ty, unsigned index,
         tell(facts, straight ? 1 : 0, square);
         return wo_lens_rays_tile(scene->rays, scene->context, tx, ty, pixels, part);
     }
+    wo_tile_light highlights;
     int rays;
     double light;
+    const bool lit = wo_tile_find_light(scene, tx, ty, highlights, part);
     worker->writes = 0;
     if (!wo_accumulate_begin(all, worker, tx, ty) ||
-        !sample(all, worker, tx, ty, &rays, &light, square))
+        !sample(all, worker, tx, ty, highlights, &rays, &light, square))
         return false;
     for (int b = 0; rays == 1 && b < BLOCKS; b++)
         square[b] = NAN;
     store(scene, worker, tx, ty, light, pixels);
-    wo_tile_highlights(scene, tx, ty, pixels, part);
+    if (lit)
+        wo_tile_add_light(pixels, highlights);
     tell(facts, (float)rays, square);
     part->tiles[tile->class]++;
     part->rays += (int64_t)rays * WO_TILE_WIDTH * WO_TILE_HEIGHT;

@@ -44,8 +44,10 @@ static wo_status create(const wo_defocus *scene, const wo_frame *frame, wo_hybri
     h->inner = inner_of(h);
     const size_t pixels = (size_t)h->width * (size_t)wo_rect_height(h->area);
     const size_t tiles = (size_t)wo_rect_width(h->tiles) * (size_t)wo_rect_height(h->tiles);
+    const bool lit = scene->highlights && scene->highlights->count > 0;
+    const int used = lit ? WO_HYBRID_PLANES : WO_HYBRID_LIGHT;
     size_t planes = 0;
-    for (int k = 0; k < WO_HYBRID_PLANES; k++)
+    for (int k = 0; k < used; k++)
         planes += !is_shared(scene, k);
     if (!(h->memory = wo_new_large(context, error, pixels, planes * sizeof(float))) ||
         !(h->rays = wo_new(context, error, tiles, sizeof *h->rays)) ||
@@ -53,7 +55,7 @@ static wo_status create(const wo_defocus *scene, const wo_frame *frame, wo_hybri
               wo_new(context, error, (size_t)h->columns * (size_t)h->rows, sizeof *h->cells)))
         return WO_ERR_NOMEM;
     float *next = h->memory;
-    for (int k = 0; k < WO_HYBRID_PLANES; k++) {
+    for (int k = 0; k < used; k++) {
         h->plane[k] = is_shared(scene, k) ? h->plane[k - 1] : next;
         next += is_shared(scene, k) ? 0 : pixels;
     }
@@ -149,7 +151,6 @@ static bool join_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_ti
         return false;
     part->tiles[wo_lens_rays_at(h->scene->rays, tx, ty)->class]++;
     wo_hybrid_join(h, tx, ty, pixels, facts);
-    wo_tile_highlights(h->scene, tx, ty, pixels, part);
     return true;
 }
 
