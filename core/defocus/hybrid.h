@@ -54,7 +54,8 @@ void wo_hybrid_kernels(wo_hybrid_kernel kernels[WO_HYBRID_KERNELS]);
 /* Of a cell of 8 x 8 px and those around it. */
 typedef struct wo_hybrid_cell {
     uint8_t near, far; /* kernels */
-    float noise[3];    /* means */
+    float noise[3];    /* of this cell alone: mean variances of near, far, rest */
+    float around[2];   /* the same of near and far, with the cells around */
     float jitter;      /* of this cell alone: variance that smoothing may take away */
 } wo_hybrid_cell;
 

@@ -8,7 +8,7 @@
 
 /* Of the variance of noise smoothing leaves more than one part in as many as there are taps:
    neighbours share rays, and a little detail moves. Measured on footage. */
-#define SMOOTH_LEAVES 2.0f
+#define SMOOTH_LEAVES 1.3f
 #define SMOOTH_MOVES  0.02f
 
 void wo_hybrid_kernels(wo_hybrid_kernel kernels[WO_HYBRID_KERNELS])
@@ -99,13 +99,12 @@ void wo_hybrid_choose(wo_hybrid *h, int32_t row)
                                WO_HYBRID_FAR + WO_PART_COVERAGE + 1,
                                WO_HYBRID_FAR + WO_PART_BLUR,
                                WO_HYBRID_NOISE + 0,
-                               WO_HYBRID_NOISE + 1,
-                               WO_HYBRID_NOISE + 2};
-    enum { SUMS = sizeof sums / sizeof sums[0] };
+                               WO_HYBRID_NOISE + 1};
+    enum { SUMS = sizeof sums / sizeof sums[0], NOISES = WO_HYBRID_LIGHT - WO_HYBRID_NOISE };
     for (int32_t column = 0; column < h->columns; column++) {
         double sum[SUMS] = {0};
+        double noise[NOISES] = {0};
         int cells = 0;
-        double own = 0;
         const wo_rect view = wo_hybrid_view(h, column, row);
         for (int32_t b = row - 1; b <= row + 1; b++) {
             for (int32_t a = column - 1; a <= column + 1; a++) {
@@ -117,22 +116,25 @@ void wo_hybrid_choose(wo_hybrid *h, int32_t row)
                     for (int y = 0; y < WO_HYBRID_CELL; y++)
                         for (int x = 0; x < WO_HYBRID_CELL; x++)
                             sum[s] += (double)h->plane[sums[s]][at + y * h->width + x];
-                if (a == column && b == row)
-                    for (int y = 0; y < WO_HYBRID_CELL; y++)
-                        for (int x = 0; x < WO_HYBRID_CELL; x++)
-                            own += (double)h->plane[WO_HYBRID_JITTER][at + y * h->width + x];
             }
         }
+        const ptrdiff_t own = cell_origin(h, column, row);
+        for (int n = 0; n < NOISES; n++)
+            for (int y = 0; y < WO_HYBRID_CELL; y++)
+                for (int x = 0; x < WO_HYBRID_CELL; x++)
+                    noise[n] += (double)h->plane[WO_HYBRID_NOISE + n][own + y * h->width + x];
         wo_hybrid_cell *const cell = &h->cells[(ptrdiff_t)row * h->columns + column];
         const double rays =
             (double)
                 h->rays[row * wo_rect_width(h->tiles) + column * WO_HYBRID_CELL / WO_TILE_WIDTH];
         cell->near = (uint8_t)wo_hybrid_kernel_for(h, true, rays, sum[0], sum[1]);
         cell->far = (uint8_t)wo_hybrid_kernel_for(h, false, rays, sum[2], sum[3]);
-        cell->jitter = (float)(WO_HALVES_TO_ERROR * WO_HALVES_TO_ERROR * own /
+        cell->jitter = (float)(WO_HALVES_TO_ERROR * WO_HALVES_TO_ERROR * noise[3] /
                                (WO_HYBRID_CELL * WO_HYBRID_CELL));
         for (int n = 0; n < 3; n++)
-            cell->noise[n] = (float)(sum[4 + n] / (cells * WO_HYBRID_CELL * WO_HYBRID_CELL));
+            cell->noise[n] = (float)(noise[n] / (WO_HYBRID_CELL * WO_HYBRID_CELL));
+        for (int n = 0; n < 2; n++)
+            cell->around[n] = (float)(sum[4 + n] / (cells * WO_HYBRID_CELL * WO_HYBRID_CELL));
     }
 }
 
@@ -291,22 +293,46 @@ static float root(float x)
 /* The estimate of noise in one cell may be too small by this. */
 #define JITTER_TRUST 4.0f
 
+/* Of what smoothing moves more than noise explains (as many times its estimate), so much is detail
+   that is lost: an error of its own. Measured on footage. */
+#define DETAIL_FROM 3.0f
+#define DETAIL_LOST 0.7f
+
 /* Smoothing takes noise away, and detail. Their sum is what it moves; the part of it that noise
-   explains is taken (James and Stein 1961). */
-static float part_of_noise(const wo_hybrid_cell *cell, colours own, colours smoothed)
+   explains is taken (James and Stein 1961). *lost: mean square of the detail that goes with it, in
+   square roots of light up to white. */
+static float part_of_noise(const wo_hybrid_cell *cell, colours own, colours smoothed, float *lost)
 {
     float moved = 0;
+    float shown = 0;
     for (int y = 0; y < WO_HYBRID_CELL; y++) {
         for (int x = 0; x < WO_HYBRID_CELL; x++) {
             for (int k = 0; k < 3; k++) {
-                const float d = root(own[y][x][k]) - root(smoothed[y][x][k]);
-                moved += d * d;
+                const float a = root(own[y][x][k]);
+                const float b = root(smoothed[y][x][k]);
+                const float d = fminf(a, 1) - fminf(b, 1);
+                moved += (a - b) * (a - b);
+                shown += d * d;
             }
         }
     }
     moved *= 1.0f / (3 * WO_HYBRID_CELL * WO_HYBRID_CELL);
+    shown *= 1.0f / (3 * WO_HYBRID_CELL * WO_HYBRID_CELL);
     const float noise = JITTER_TRUST * cell->jitter;
-    return moved <= noise ? 1 : noise / moved;
+    const float part = moved <= noise ? 1 : noise / moved;
+    const float detail = moved > 0 ? fmaxf(1 - DETAIL_FROM * cell->jitter / moved, 0) : 0;
+    *lost = DETAIL_LOST * part * part * detail * shown;
+    return part;
+}
+
+/* Variance of a pixel of which a part is smoothed: what is left of its own noise, and the mean of
+   the noise around, of which the pixel's own is one in as many as there are taps. */
+static float noise_left(const wo_hybrid_kernel *k, float part, float own, float around)
+{
+    if (k->count <= 1)
+        return own;
+    const float rest = 1 - part;
+    return own * rest * (rest + 2 * part / (float)k->count) + around * part * part * k->gain;
 }
 
 void wo_hybrid_join(const wo_hybrid *h, int32_t tx, int32_t ty, wo_tile_pixels *pixels,
@@ -323,13 +349,15 @@ void wo_hybrid_join(const wo_hybrid *h, int32_t tx, int32_t ty, wo_tile_pixels *
         colours smoothed;
         add_up(h, left, low, own);
         float part = 0;
+        float lost = 0;
         if (cell->near > 0 || cell->far > 0) {
             add_up_smooth(h, cell, left, low, smoothed);
-            part = part_of_noise(cell, own, smoothed);
+            part = part_of_noise(cell, own, smoothed, &lost);
         }
-        const float near = 1 - part * (1 - h->kernels[cell->near].gain);
-        const float far = 1 - part * (1 - h->kernels[cell->far].gain);
-        const float noise = cell->noise[0] * near + cell->noise[1] * far + cell->noise[2];
+        const float noise =
+            noise_left(&h->kernels[cell->near], part, cell->noise[0], cell->around[0]) +
+            noise_left(&h->kernels[cell->far], part, cell->noise[1], cell->around[1]) +
+            cell->noise[2] + lost;
         for (int y = 0; y < WO_HYBRID_CELL; y++) {
             for (int x = 0; x < WO_HYBRID_CELL; x++) {
                 float *const c = pixels->c[y][x0 + x];
