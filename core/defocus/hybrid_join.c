@@ -341,6 +341,9 @@ void wo_hybrid_join(const wo_hybrid *h, int32_t tx, int32_t ty, wo_tile_pixels *
     const size_t tile =
         (size_t)(ty - h->tiles.y1) * (size_t)wo_rect_width(h->tiles) + (size_t)(tx - h->tiles.x1);
     const int32_t low = ty * WO_TILE_HEIGHT - h->area.y1;
+    /* One ray where many are wanted says nothing of its error. */
+    const bool known =
+        h->rays[tile] != 1 || wo_ray_tile_straight(wo_lens_rays_at(h->scene->rays, tx, ty));
     for (int32_t x0 = 0; x0 < WO_TILE_WIDTH; x0 += WO_HYBRID_CELL) {
         const int32_t left = tx * WO_TILE_WIDTH - h->area.x1 + x0;
         const wo_hybrid_cell *const cell =
@@ -366,7 +369,7 @@ void wo_hybrid_join(const wo_hybrid *h, int32_t tx, int32_t ty, wo_tile_pixels *
                                     : own[y][x][k];
                 pixels->guessed[y][x0 + x] =
                     h->plane[WO_HYBRID_GUESSED][(low + y) * h->width + left + x];
-                facts->error[y][x0 + x] = sqrtf(noise);
+                facts->error[y][x0 + x] = known ? sqrtf(noise) : NAN;
                 const ptrdiff_t at = (low + y) * h->width + left + x;
                 for (int k = 0; h->plane[WO_HYBRID_LIGHT] && k < 3; k++)
                     c[k] += h->plane[WO_HYBRID_LIGHT + k][at];
