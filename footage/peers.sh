@@ -82,21 +82,21 @@ version_of() {
 # prepare PICTURE RADIUS: what the tools read, made in $work, in nobody's time. RADIUS holds the
 # radius of the circle of confusion in px.
 prepare() {
-    oiiotool "$2" --ch 0,0,0 --chnames R,G,B --abs -d float -o "$work/radius.exr"
-    largest=$(oiiotool "$work/radius.exr" --printstats | sed -n 's/.*Stats Max: \([^ ]*\) .*/\1/p')
+    local facts
+    facts=$(oiiotool "$2" --ch 0,0,0 --chnames R,G,B --abs -d float -o "$work/radius.exr" \
+        --printstats "$1" --ch R,G,B,A --compression zip -o "$work/picture.exr" \
+        --ch R,G,B --compression none -d float -o "$work/picture.tif" \
+        --echo 'Size {TOP.width} {TOP.height}')
+    largest=$(sed -n 's/.*Stats Max: \([^ ]*\) .*/\1/p' <<< "$facts")
+    longer=$(awk '/^Size/ { print ($2 > $3 ? $2 : $3) }' <<< "$facts")
     [ "$(compute "$largest > 0.6")" = 1 ] || fault "$1: nothing is out of focus"
     # GEGL's lens-blur reaches half a pixel beyond its radius.
     disc=$(compute "$largest - 0.5")
     # A Gaussian of half a disc's radius has its second moment and its sum of squares.
     sigma=$(compute "$largest / 2")
-    oiiotool "$work/radius.exr" --subc 0.5 --clamp:min=0 --divc "$disc" -o "$work/disc.exr"
-    oiiotool "$work/radius.exr" --divc "$largest" -o "$work/unit.exr"
-    oiiotool "$work/unit.exr" --ch R -o "$work/unit1.exr"
-    oiiotool "$work/unit.exr" --compression none -o "$work/unit.tif"
-    oiiotool "$1" --ch R,G,B,A --compression zip -o "$work/picture.exr"
-    oiiotool "$1" --ch R,G,B -d float --compression none -o "$work/picture.tif"
-    longer=$(oiiotool "$work/picture.exr" --echo '{TOP.width} {TOP.height}' |
-        awk '{ print ($1 > $2 ? $1 : $2) }')
+    oiiotool "$work/radius.exr" --dup --subc 0.5 --clamp:min=0 --divc "$disc" \
+        -o "$work/disc.exr" --pop --divc "$largest" -o "$work/unit.exr" \
+        --compression none -o "$work/unit.tif" --ch R -o "$work/unit1.exr"
 }
 
 # command_of NAME OUTPUT: sets command, which makes the picture $made; finish_picture makes OUTPUT
@@ -151,7 +151,7 @@ run() {
 # ------------------------------------------------------------------------------------------ results
 
 # The table of one scene and who is beaten by whom: of $1, the csv. A tool is beaten by a setting of
-# ours that is nearer to the truth and takes less time.
+# ours that is nearer to the truth in PSNR and in SSIM and takes less time.
 print_scene() {
     awk -F , -v scene="$scene" -v clock="$clock" '
         NR == 1 || $1 != scene { next }
@@ -171,7 +171,7 @@ print_scene() {
                     continue
                 best = next_one = 0
                 for (j = 1; j <= n; j++) {
-                    if (!mine[j] || psnr[j] <= psnr[i])
+                    if (!mine[j] || psnr[j] <= psnr[i] || ssim[j] <= ssim[i])
                         continue
                     if (time[j] < time[i] && (!best || psnr[j] > psnr[best]))
                         best = j
@@ -197,9 +197,10 @@ measure() {
     truth=$folder/truth.exr
     [ -e "$truth" ] || truth=$folder/reference.exr
     source=$folder/pinhole.exr depth=$folder/depth.exr camera=()
-    for name in "$source" "$depth" "$truth"; do
+    for name in "$source" "$truth"; do
         [ -e "$name" ] || fault "there is no $name"
     done
+    [ -e "$depth" ] || depth=$source:depth
     work=$out/$scene
     mkdir -p "$work"
     "$wideopen" render LensBlur --clip Source="$source" --clip Depth="$depth" --set output=coc \
@@ -234,7 +235,16 @@ measure() {
         } >> "$csv"
     done
     print_scene "$csv"
-    [ ! -x "$plotter" ] || "$plotter" "$csv" "$scene" "$clock" "$out/$scene.svg"
+    awk -F , -v scene="$scene" -v OFS='\t' -v clock="$clock" '
+        NR == 1 || $1 != scene { next }
+        $3 != "ours" { print ".other tools", $2, $(clock == "cpu" ? 8 : 7), $12 }
+        $3 == "ours" {
+            split($2, part, "-")
+            print part[1], part[2], $(clock == "cpu" ? 8 : 7), $12
+        }' "$csv" > "$work/points"
+    "$plotter" "$scene: whole process on $cores of the cores" "$(
+        [ "$clock" = cpu ] && echo "user and system time, s" || echo "time, s")" \
+        "error: RMSE of the displayed value" "$out/$scene.svg" < "$work/points"
 }
 
 # discs: every tool on one bright point that is out of focus by 2 to 32 px. A disc of equal values
@@ -268,64 +278,74 @@ measure_discs() {
 
 # --------------------------------------------------------------------------------------------- main
 
-cores=1 repeats=3 clock=cpu only='' out='' crop=0 task=measure wideopen=''
-while [ $# -gt 0 ]; do
-    case $1 in
-    --discs) task=discs ;;
-    --missing) task=missing ;;
-    --cores | --repeats | --clock | --only | --crop | -o)
-        [ $# -ge 2 ] || usage
+# A function: the shell has read all of it before anything runs.
+main() {
+    cores=1 repeats=3 clock=cpu only='' out='' crop=0 task=measure wideopen=''
+    while [ $# -gt 0 ]; do
         case $1 in
-        --cores) cores=$2 ;;
-        --repeats) repeats=$2 ;;
-        --clock) clock=$2 ;;
-        --only) only=${2//,/ } ;;
-        --crop) crop=$2 ;;
-        -o) out=$2 ;;
+        --discs) task=discs ;;
+        --missing) task=missing ;;
+        --cores | --repeats | --clock | --only | --crop | -o)
+            [ $# -ge 2 ] || usage
+            case $1 in
+            --cores) cores=$2 ;;
+            --repeats) repeats=$2 ;;
+            --clock) clock=$2 ;;
+            --only) only=${2//,/ } ;;
+            --crop) crop=$2 ;;
+            -o) out=$2 ;;
+            esac
+            shift ;;
+        -*) usage ;;
+        *) break ;;
         esac
-        shift ;;
-    -*) usage ;;
-    *) break ;;
-    esac
+        shift
+    done
+    status=0
+    if [ $task = missing ]; then
+        find_peers
+        [ -z "$lacking" ] || status=1
+        exit $status
+    fi
+    case $clock in cpu | wall) ;; *) usage ;; esac
+    [[ $cores =~ ^[1-9][0-9]*$ && $repeats =~ ^[1-9][0-9]*$ && $crop =~ ^[0-9]+$ ]] || usage
+    [[ -n $out && $# -ge 1 ]] || usage
+    wideopen=$1
     shift
-done
-status=0
-if [ $task = missing ]; then
+    [ -x "$wideopen" ] || fault "no program $wideopen"
+    for name in oiiotool taskset awk; do
+        command -v $name > /dev/null || fault "there is no $name (openimageio-tools, util-linux, mawk)"
+    done
+    plotter=$(dirname "$wideopen")/plot_points
+    [ -x "$plotter" ] || fault "no program $plotter: it is built with wideopen"
+    # The first cores that this process may use.
+    processors=$(taskset -cp $$ | sed 's/.*: //' | tr ',' '\n' |
+        awk -F - -v n="$cores" '{ for (i = $1; i <= ($2 == "" ? $1 : $2); i++) if (k < n) {
+            printf "%s%d", k ? "," : "", i; k++ } } END { exit k < n }') ||
+        fault "there are fewer than $cores cores"
+    export GEGL_THREADS=$cores OMP_NUM_THREADS=$cores MAGICK_THREAD_LIMIT=$cores
+    mkdir -p "$out"
+    out=$(cd "$out" && pwd)
     find_peers
-    [ -z "$lacking" ] || status=1
+    wanted=${only:-$found $ours}
+    for name in $wanted; do
+        [[ " $found " == *" $name "* ]] || {
+            [[ $name =~ ^[a-z]+-[1-9][0-9]*$ && ! $peers =~ (^|[[:space:]])$name([[:space:]]|$) ]] ||
+                fault "there is no $name"
+        }
+    done
+    if [ $task = discs ]; then
+        wanted=${only:-$found spread-64}
+        measure_discs
+        exit $status
+    fi
+    [ $# -ge 1 ] || usage
+    csv=$out/peers.csv
+    echo "scene,name,package,version,cores,runs,wall,cpu,psnr,ssim,relmse,rmse" > "$csv"
+    for folder in "$@"; do
+        measure "$folder"
+    done
     exit $status
-fi
-case $clock in cpu | wall) ;; *) usage ;; esac
-[[ $cores =~ ^[1-9][0-9]*$ && $repeats =~ ^[1-9][0-9]*$ && $crop =~ ^[0-9]+$ ]] || usage
-[[ -n $out && $# -ge 1 ]] || usage
-wideopen=$1
-shift
-[ -x "$wideopen" ] || fault "no program $wideopen"
-for name in oiiotool taskset awk; do
-    command -v $name > /dev/null || fault "there is no $name (openimageio-tools, util-linux, mawk)"
-done
-plotter=$(dirname "$wideopen")/peers_plot
-# The first cores that this process may use.
-processors=$(taskset -cp $$ | sed 's/.*: //' | tr ',' '\n' |
-    awk -F - -v n="$cores" '{ for (i = $1; i <= ($2 == "" ? $1 : $2); i++) if (k < n) {
-        printf "%s%d", k ? "," : "", i; k++ } } END { exit k < n }') ||
-    fault "there are fewer than $cores cores"
-export GEGL_THREADS=$cores OMP_NUM_THREADS=$cores MAGICK_THREAD_LIMIT=$cores
-mkdir -p "$out"
-out=$(cd "$out" && pwd)
-find_peers
-wanted=${only:-$found $ours}
-for name in $wanted; do
-    [[ " ${found//$'\n'/ } $ours " =~ [[:space:]]${name}[[:space:]] ]] || fault "no tool $name"
-done
-if [ $task = discs ]; then
-    measure_discs
-    exit $status
-fi
-[ $# -ge 1 ] || usage
-csv=$out/peers.csv
-echo "scene,name,package,version,cores,runs,wall,cpu,psnr,ssim,relmse,rmse" > "$csv"
-for folder in "$@"; do
-    measure "$folder"
-done
-exit $status
+}
+
+main "$@"
