@@ -19,8 +19,8 @@ here=$(cd "$(dirname "$0")" && pwd)
 peers="gegl-lens-blur gegl-variable-blur gegl-variable-blur-hq gmic-16 gmic-64 magick magick-hdri
     blender blender-preview"
 # METHOD-SAMPLES of LensBlur.
-ours="filter-4 filter-16 filter-64 spread-4 spread-16 spread-64 accumulate-16
-    hybrid-4 hybrid-8 hybrid-16 hybrid-64 rays-16 rays-64"
+ours="filter-4 filter-8 filter-16 filter-32 filter-64 spread-16 spread-64 accumulate-16
+    hybrid-4 hybrid-8 hybrid-16 hybrid-64 rays-8 rays-16 rays-64"
 
 fault() {
     echo "peers.sh: $*" >&2
@@ -242,9 +242,14 @@ measure() {
             split($2, part, "-")
             print part[1], part[2], $(clock == "cpu" ? 8 : 7), $12
         }' "$csv" > "$work/points"
-    "$plotter" "$scene: whole process on $cores of the cores" "$(
+    "$plotter" "$scene, whole process, cores: $cores" "$(
         [ "$clock" = cpu ] && echo "user and system time, s" || echo "time, s")" \
         "error: RMSE of the displayed value" "$out/$scene.svg" < "$work/points"
+    local cells=("truth=$truth" "pinhole=$source")
+    for name in $wanted; do
+        [ "${best_wall[$name]}" = failed ] || cells+=("$name=$work/$name.exr")
+    done
+    "$wideopen" sheet "${cells[@]}" --columns 4 --width 320 -o "$out/$scene.png" > /dev/null
 }
 
 # discs: every tool on one bright point that is out of focus by 2 to 32 px. A disc of equal values
