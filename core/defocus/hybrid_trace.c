@@ -6,7 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Near, far, rest, jitter. */
+/* Near, far, rest, jitter, open, shown. */
+enum { JITTER = WO_HYBRID_JITTER - WO_HYBRID_NOISE, OPEN, SHOWN };
 enum { NOISES = WO_HYBRID_PLANES - WO_HYBRID_NOISE };
 
 /* One pixel of sums, each part divided by the light of its colour. */
@@ -73,12 +74,15 @@ static void noise_of(const split *all, const split *a, const split *b, float noi
         const float rest = a->c[k] - b->c[k] - near - far;
         const float d[3] = {near, far, rest};
         const float root = 0.25f * (near + far) / sqrtf(fmaxf(fabsf(all->c[k]), 1e-4f));
-        noise[3] += root * root * (1.0f / 3);
-        const float slope = wo_shown(a->c[k], b->c[k]);
-        for (int n = 0; n < 3; n++) {
-            const float e = 0.5f * slope * d[n];
-            noise[n] += e * e * (1.0f / 3);
-        }
+        noise[JITTER] += root * root * (1.0f / 3);
+        const float mean = 0.5f * (a->c[k] + b->c[k]);
+        const float slope = 0.5f * wo_hybrid_slope(fmaxf(mean, 0));
+        for (int n = 0; n < 3; n++)
+            noise[n] += slope * slope * d[n] * d[n] * (1.0f / 3);
+        const float all_of_it = a->c[k] - b->c[k];
+        const float shown = 0.5f * wo_shown(a->c[k], b->c[k]);
+        noise[OPEN] += slope * slope * all_of_it * all_of_it * (1.0f / 3);
+        noise[SHOWN] += shown * shown * all_of_it * all_of_it * (1.0f / 3);
     }
 }
 
@@ -126,7 +130,7 @@ static double error_of(void *user, const wo_tile_work *work, const wo_tile_sums 
     const wo_hybrid *h = user;
     double total = 0;
     for (int x0 = 0; x0 < WO_TILE_WIDTH; x0 += WO_HYBRID_CELL) {
-        double noise[3] = {0};
+        double noise[NOISES] = {0};
         double near[2] = {0};
         double far[2] = {0};
         for (int32_t row = 0; row < WO_TILE_HEIGHT; row++) {
@@ -134,7 +138,7 @@ static double error_of(void *user, const wo_tile_work *work, const wo_tile_sums 
                 split s;
                 float one[NOISES];
                 look_at(work, sums, row, x % WO_PHASES, x / WO_PHASES, &s, one);
-                for (int n = 0; n < 3; n++)
+                for (int n = 0; n < NOISES; n++)
                     noise[n] += (double)one[n];
                 near[0] += (double)mean_coverage(s.near);
                 near[1] += (double)s.near[WO_PART_BLUR];
@@ -144,8 +148,9 @@ static double error_of(void *user, const wo_tile_work *work, const wo_tile_sums 
         }
         const int near_kernel = wo_hybrid_kernel_for(h, true, sums->rays, near[0], near[1]);
         const int far_kernel = wo_hybrid_kernel_for(h, false, sums->rays, far[0], far[1]);
-        total += noise[0] * (double)h->kernels[near_kernel].gain +
-                 noise[1] * (double)h->kernels[far_kernel].gain + noise[2];
+        const double shown = noise[OPEN] > 0 ? fmin(noise[SHOWN] / noise[OPEN], 1) : 1;
+        total += shown * (noise[0] * (double)h->kernels[near_kernel].gain +
+                          noise[1] * (double)h->kernels[far_kernel].gain + noise[2]);
     }
     return total / (WO_TILE_WIDTH * WO_TILE_HEIGHT);
 }
