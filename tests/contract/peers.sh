@@ -65,6 +65,12 @@ must 0 'all there' sh -c 'grep -q "</svg>" out/scene.svg && grep -q gegl-lens-bl
 must 0 '2 rows' awk -F , 'NR > 1 && NF == 12 && $6 == 2 && $7 > 0 && $8 > 0 && $9 > 10 && $12 > 0 {
     n++ } END { print n, "rows" }' out/peers.csv
 
+plot=$(dirname "$wideopen")/plot_points
+must 2 usage "$plot" only three words
+must 1 'no lines of' sh -c "echo no points | $plot title x y plot.svg"
+must 0 '2 dots' sh -c "printf 'a\tfirst\t0.5\t0.01\na\tnext\t1\t0.001\n.b\tnone\t0\t-1\n' |
+    $plot title x y plot.svg && echo \$(grep -c -e '>first<' -e '>next<' -e '>none<' plot.svg) dots"
+
 printf '#!/bin/sh\necho no memory\nexit 1\n' >tools/gegl
 must 1 'gegl-lens-blur failed' \
     "$peers" --only gegl-lens-blur --repeats 1 -o out "$wideopen" scene
