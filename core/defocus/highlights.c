@@ -35,9 +35,10 @@ typedef struct share_cache {
 /* The pixel of a highlight is already as soft as the picture, so large discs need no soft edge. But
    discs up to SOFT px of reach have edges cut by the area of each pixel, so that they grow
    smoothly; from there to twice that it matters less and less, and then the middle of the pixel
-   counts. */
+   counts. The area is looked at in places of a lattice: no two are in one row or column, which a
+   rim could reach at once. */
 #define SOFT 2.0
-enum { PLACES = 8 };
+enum { PLACES = 144, STRIDE = 89 };
 
 /* Density of rays over the pixel at the offset (dx, dy), and one of them. */
 static double density_at(const wo_lens *lens, int32_t dx, int32_t dy, float v, float reach,
@@ -54,16 +55,16 @@ static double density_at(const wo_lens *lens, int32_t dx, int32_t dy, float v, f
     const bool even = corners[0] == corners[1] && corners[0] == corners[2] &&
                       corners[0] == corners[3] && corners[0] == density &&
                       (corners[0] > 0 || dx * dx + dy * dy > 2);
-    for (int i = 0; i < PLACES * PLACES && soft > 0 && !even; i++) {
-        const double x = dx + (i % PLACES + 0.5) / PLACES - 0.5;
-        const double y = dy + (i / PLACES + 0.5) / PLACES - 0.5;
+    for (int i = 0; i < PLACES && soft > 0 && !even; i++) {
+        const double x = dx + (i + 0.5) / PLACES - 0.5;
+        const double y = dy + (STRIDE * i % PLACES + 0.5) / PLACES - 0.5;
         double inside[4];
         const double d = lens->connect(lens->self, x, y, v, inside);
         if (d > 0)
             memcpy(line, inside, sizeof inside);
         sum += d;
     }
-    sum = soft * (even ? corners[0] : sum / (PLACES * PLACES));
+    sum = soft * (even ? corners[0] : sum / PLACES);
     /* The ray through the middle, if it is there. */
     if (density > 0)
         memcpy(line, middle, sizeof middle);
@@ -121,13 +122,18 @@ static float fade(double reach)
     return (float)(t >= 1 ? 1 : t * t * (3 - 2 * t));
 }
 
-/* One pixel of a sheet that is a highlight, or not. */
+static inline bool is_bright(const float c[4])
+{
+    return (c[0] > WO_HIGHLIGHT_LEVEL) | (c[1] > WO_HIGHLIGHT_LEVEL) | (c[2] > WO_HIGHLIGHT_LEVEL);
+}
+
+/* One bright pixel of a sheet that is a highlight, or not. */
 static bool is_highlight(const take_job *job, const wo_sheet *sheet, size_t at, spot *found)
 {
     const float *c = sheet->c[at];
-    const float peak = fmaxf(c[0], fmaxf(c[1], c[2]));
-    if (!(peak > WO_HIGHLIGHT_LEVEL) || isnan(sheet->v[at]))
+    if (isnan(sheet->v[at]))
         return false;
+    const float peak = fmaxf(c[0], fmaxf(c[1], c[2]));
     const wo_lens *lens = job->lens;
     const double step = lens->px_per_dioptre * QUANTUM;
     found->v = (float)(rint(sheet->v[at] * step) / step);
@@ -160,7 +166,8 @@ static void count_tile(void *user, size_t index, unsigned worker)
         for (int32_t y = r.y1; sheet->any && y < r.y2; y++)
             for (int32_t x = r.x1; x < r.x2; x++) {
                 const size_t at = (size_t)((y - sheet->area.y1) * w + x - sheet->area.x1);
-                job->counts[index] += is_highlight(job, sheet, at, &found);
+                if (is_bright(sheet->c[at]))
+                    job->counts[index] += is_highlight(job, sheet, at, &found);
             }
     }
 }
@@ -182,7 +189,7 @@ static void take_tile(void *user, size_t index, unsigned worker)
             for (int32_t x = r.x1; x < r.x2; x++) {
                 const size_t at = (size_t)((y - sheet->area.y1) * w + x - sheet->area.x1);
                 spot found;
-                if (!is_highlight(job, sheet, at, &found))
+                if (!is_bright(sheet->c[at]) || !is_highlight(job, sheet, at, &found))
                     continue;
                 const double part = cached_share(&cache, job->lens, found.v, found.reach);
                 /* Slits that no pixel looks through: the light stays with the surface. */

@@ -35,20 +35,19 @@ enum {
     WO_HYBRID_LEFT = WO_HYBRID_REST + 4,           /* light that nothing stopped */
     WO_HYBRID_GUESSED,
     WO_HYBRID_NOISE, /* near, far, rest: square of half the difference between the halves of the
-                        rays, of wo_hybrid_curve */
-    WO_HYBRID_JITTER = WO_HYBRID_NOISE + 3, /* the same of near and far together, in square roots of
-                                               light */
-    WO_HYBRID_OPEN,                         /* the same of all, of wo_hybrid_curve ... */
-    WO_HYBRID_SHOWN, /* ... and of the displayed value, which ends at white */
+                        rays, in roots of light (wo_hybrid_scale) */
+    WO_HYBRID_JITTER = WO_HYBRID_NOISE + 3, /* the same of near and far together */
+    WO_HYBRID_OPEN,                         /* of all ... */
+    WO_HYBRID_SHOWN,                        /* ... and of the displayed value */
     WO_HYBRID_PLANES
 };
 
 enum { WO_HYBRID_CELL = 8, WO_HYBRID_TAPS_MAX = 64, WO_HYBRID_KERNELS = 33 };
 
-/* The displayed value without an end at white: what is decided for a picture must be right when it
-   is made darker, too. light: >= 0, and its slope. */
-float wo_hybrid_curve(float light);
-float wo_hybrid_slope(float light);
+/* Roots of light: what is decided in them is right when the picture is made darker, too; the
+   displayed value ends at white. A difference d of light about this much light is d times this
+   scale. */
+float wo_hybrid_scale(float light);
 
 /* A kernel over whole pixels. gain: how much of the variance it leaves. */
 typedef struct wo_hybrid_kernel {
@@ -69,8 +68,8 @@ void wo_hybrid_kernels(wo_hybrid_kernel kernels[WO_HYBRID_KERNELS]);
 /* Of a cell of 8 x 8 px and those around it. */
 typedef struct wo_hybrid_cell {
     uint8_t near, far; /* kernels */
-    float noise[3];    /* means of WO_HYBRID_NOISE */
-    float shown;       /* of the noise, the part that is not above white */
+    float noise[3];    /* means of WO_HYBRID_NOISE, for all rays */
+    float shown;       /* the displayed value has so many times the noise */
     float jitter;      /* of this cell alone: variance that smoothing may take away */
 } wo_hybrid_cell;
 
@@ -105,7 +104,7 @@ bool wo_hybrid_trace(wo_hybrid *hybrid, int32_t tx, int32_t ty, wo_report *part)
 void wo_hybrid_choose(wo_hybrid *hybrid, int32_t row);
 
 /* Puts the parts of one tile together. noise: mean square of the expected error of each of its
-   cells, of wo_hybrid_curve; shown: which part of it the displayed value has. */
+   cells, in roots of light; shown: the displayed value has so many times as much. */
 typedef struct wo_hybrid_noise {
     float noise[WO_TILE_WIDTH / WO_HYBRID_CELL], shown[WO_TILE_WIDTH / WO_HYBRID_CELL];
 } wo_hybrid_noise;
@@ -117,15 +116,13 @@ typedef struct wo_hybrid_lean {
     bool known;     /* false: the picture of the rays stands as it is */
     float shift[4]; /* mean difference of rays and filter, times wo_hybrid_scale */
     float keep;     /* part of the difference's detail that is not noise */
-    float error;    /* square of the expected error, of wo_hybrid_curve */
+    float error;    /* square of the expected error */
 } wo_hybrid_lean;
 
-/* Differences are compared in square roots of light, so that a lamp does not show in the mean of
-   its cell; but scaled by what the filter shows alone, so that they remain differences of light. */
-float wo_hybrid_scale(float filtered);
-
 /* rays, filtered: rows of the two pictures of one cell. noise: the expected square of the error of
-   the rays' picture, of wo_hybrid_curve, mean of the cell. */
+   the rays' picture, mean of the cell, in roots of light, as the error will be. Differences are
+   scaled by what the filter shows, so that a lamp does not show in the mean of its cell, and noise
+   does not pull the mean down. */
 void wo_hybrid_lean_on(float (*const rays[WO_HYBRID_CELL])[4],
                        float (*const filtered[WO_HYBRID_CELL])[4], float noise,
                        wo_hybrid_lean *lean);

@@ -11,6 +11,14 @@
 #define SMOOTH_LEAVES 2.0f
 #define SMOOTH_MOVES  0.02f
 
+/* Below this light is black. */
+#define DARK 0.02f
+
+float wo_hybrid_scale(float light)
+{
+    return 0.5f / sqrtf(fmaxf(light, 0) + DARK);
+}
+
 void wo_hybrid_kernels(wo_hybrid_kernel kernels[WO_HYBRID_KERNELS])
 {
     for (int q = 0; q < WO_HYBRID_KERNELS; q++) {
@@ -136,7 +144,7 @@ void wo_hybrid_choose(wo_hybrid *h, int32_t row)
         for (int n = 0; n < 3; n++)
             cell->noise[n] = (float)(WO_HALVES_TO_ERROR * WO_HALVES_TO_ERROR * sum[4 + n] /
                                      (cells * WO_HYBRID_CELL * WO_HYBRID_CELL));
-        cell->shown = sum[7] > 0 ? fminf((float)(sum[8] / sum[7]), 1) : 1;
+        cell->shown = sum[7] > 0 ? (float)(sum[8] / sum[7]) : 1;
     }
 }
 
@@ -287,11 +295,6 @@ static void add_up_smooth(const wo_hybrid *h, const wo_hybrid_cell *cell, int32_
     }
 }
 
-static float root(float x)
-{
-    return copysignf(sqrtf(fabsf(x)), x);
-}
-
 /* The estimate of noise in one cell may be too small by this. */
 #define JITTER_TRUST 4.0f
 
@@ -303,7 +306,7 @@ static float part_of_noise(const wo_hybrid_cell *cell, colours own, colours smoo
     for (int y = 0; y < WO_HYBRID_CELL; y++) {
         for (int x = 0; x < WO_HYBRID_CELL; x++) {
             for (int k = 0; k < 3; k++) {
-                const float d = root(own[y][x][k]) - root(smoothed[y][x][k]);
+                const float d = (own[y][x][k] - smoothed[y][x][k]) * wo_hybrid_scale(own[y][x][k]);
                 moved += d * d;
             }
         }

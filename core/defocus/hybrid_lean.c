@@ -5,8 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Below this light is black. */
-#define DARK 0.02f
 /* Noise is taken to be so many times what the halves of the rays say, because what 64 pixels say
    varies, and too much noise is worse than too little of what the filter missed. */
 #define NOISE_TRUST 1.5f
@@ -15,21 +13,6 @@
 /* Of the variance of noise, what is in the picture though keep says none: keep itself is an
    estimate. Measured on footage. */
 #define LEFT_OVER 0.15f
-
-float wo_hybrid_curve(float light)
-{
-    return light <= 0.0031308f ? 12.92f * light : 1.055f * powf(light, 1 / 2.4f) - 0.055f;
-}
-
-float wo_hybrid_slope(float light)
-{
-    return light <= 0.0031308f ? 12.92f : 1.055f / 2.4f * powf(light, 1 / 2.4f - 1);
-}
-
-float wo_hybrid_scale(float filtered)
-{
-    return 1 / sqrtf(fmaxf(filtered, 0) + DARK);
-}
 
 static float scale_of(const float filtered[4], int k)
 {
@@ -60,18 +43,15 @@ void wo_hybrid_lean_on(float (*const rays[WO_HYBRID_CELL])[4],
                                   scale_of(filtered[y][x], k) * (1.0f / PIXELS);
     float detail = 0;
     float shifted = 0;
-    for (int y = 0; y < WO_HYBRID_CELL; y++) {
-        for (int x = 0; x < WO_HYBRID_CELL; x++) {
-            for (int k = 0; k < 3; k++) {
-                const float f = filtered[y][x][k];
-                const float middle = wo_hybrid_curve(f + lean->shift[k] / wo_hybrid_scale(f));
-                detail += square(wo_hybrid_curve(rays[y][x][k]) - middle);
-                shifted += square(middle - wo_hybrid_curve(f));
-            }
-        }
-    }
+    for (int k = 0; k < 3; k++)
+        shifted += square(lean->shift[k]) * (1.0f / 3);
+    for (int y = 0; y < WO_HYBRID_CELL; y++)
+        for (int x = 0; x < WO_HYBRID_CELL; x++)
+            for (int k = 0; k < 3; k++)
+                detail += square((rays[y][x][k] - filtered[y][x][k]) *
+                                     wo_hybrid_scale(filtered[y][x][k]) -
+                                 lean->shift[k]);
     detail *= 1.0f / (3 * PIXELS);
-    shifted *= 1.0f / (3 * PIXELS);
     lean->keep = part_over(detail, NOISE_TRUST * noise);
     const float shift = part_over(shifted, MEAN_NOISE * noise);
     for (int k = 0; k < 4; k++)
