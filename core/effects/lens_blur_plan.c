@@ -107,6 +107,12 @@ static void opaque_row(void *user, size_t index, unsigned worker)
     }
 }
 
+/* Brute force draws no pictures of points. */
+static bool connects(const wo_plan *plan)
+{
+    return plan->lens.connect || plan->params.method != WO_METHOD_REFERENCE;
+}
+
 static void note_layers(wo_plan *plan, const wo_sheet sheets[SHEETS], int64_t split)
 {
     wo_report *report = &plan->report;
@@ -125,9 +131,9 @@ static void note_layers(wo_plan *plan, const wo_sheet sheets[SHEETS], int64_t sp
                             1, "sheets");
     if (plan->setup.has_depth && !sheets[HIDDEN].any)
         wo_report_leave_out(report, "sheet of hidden surfaces", "nothing is hidden", 1, "sheets");
-    if (!plan->lens.connect)
+    if (!connects(plan))
         wo_report_leave_out(report, "connections to highlights",
-                            "this lens has no closed form: rays alone find them", 0, "");
+                            "the reference finds them by rays alone", 0, "");
     else if (plan->highlights.count == 0)
         wo_report_leave_out(report, "connections to highlights", "no blurred highlight", 0, "");
 }
@@ -253,7 +259,7 @@ static wo_status build_scene(wo_plan *plan, const wo_plan_args *args, wo_error *
         status = go_on(context, error);
     plan->reach = reach_of(plan, sheets);
     const wo_rect seen = wo_lens_blur_stack_area(&plan->setup, plan->window, plan->reach);
-    if (status == WO_OK)
+    if (status == WO_OK && connects(plan))
         status = wo_highlights_take(context, sheets, SHEETS, wo_rect_intersect(seen, extent),
                                     &plan->lens, &plan->highlights, error);
     plan->report.seconds[WO_STAGE_INPUT] += wo_seconds() - start;
@@ -263,6 +269,9 @@ static wo_status build_scene(wo_plan *plan, const wo_plan_args *args, wo_error *
     if (status == WO_OK)
         status =
             wo_stack_create(context, sheets, SHEETS, opaque, seen, extent, &plan->stack, error);
+    if (status == WO_OK)
+        status = wo_highlights_draw(context, &plan->highlights, &plan->stack, &plan->lens,
+                                    plan->window, error);
     plan->report.seconds[WO_STAGE_BOUNDS] += wo_seconds() - start;
     plan->report.sanitised_colour = counts.sanitised_colour;
     plan->report.sanitised_depth = counts.sanitised_depth;
