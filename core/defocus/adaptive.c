@@ -95,8 +95,12 @@ bool wo_tile_sample(const wo_defocus *scene, wo_tile_work *work, wo_tile_error *
                     wo_tile_sums *sums, wo_report *report)
 {
     memset(sums, 0, sizeof *sums);
-    if (!scene->quality.adaptive)
-        return trace(work, scene->lens, 0, 1, sums, report);
+    if (!scene->quality.adaptive) {
+        if (!trace(work, scene->lens, 0, 1, sums, report))
+            return false;
+        error(user, work, sums);
+        return true;
+    }
     int level = 0;
     for (unsigned pass = 0;; pass++) {
         const wo_lens *lens = &scene->levels[level];
@@ -104,10 +108,8 @@ bool wo_tile_sample(const wo_defocus *scene, wo_tile_work *work, wo_tile_error *
             pow((double)lens->count / scene->levels[0].count, WO_LATTICE_POWER - 1);
         if (!trace(work, lens, pass, scale, sums, report))
             return false;
-        if (wo_ray_tile_straight(work->tile))
-            return true;
         const double e = WO_ERROR_SIGMAS * sqrt(error(user, work, sums));
-        if (e <= scene->quality.target_error)
+        if (e <= scene->quality.target_error || wo_ray_tile_straight(work->tile))
             return true;
         const double too_large =
             scene->quality.target_error > 0 ? e / scene->quality.target_error : INFINITY;

@@ -43,7 +43,7 @@ float wo_noise_add(wo_noise *noise, const float a[3], const float b[3], const fl
 /* What these squares are to be multiplied by to be the variance of the whole. */
 double wo_noise_factor(const wo_noise *noise);
 
-/* Mean variance over the tile, in the displayed value. */
+/* Called after every pass: mean variance over the tile, in the displayed value. */
 typedef double wo_tile_error(void *user, const wo_tile_work *work, const wo_tile_sums *sums);
 
 /* Samples a tile that is not empty. report: rays and steps. false when stopped. */

@@ -11,6 +11,14 @@
 #define SMOOTH_LEAVES 1.3f
 #define SMOOTH_MOVES  0.02f
 
+/* Below this light is black. */
+#define DARK 0.02f
+
+float wo_hybrid_scale(float light)
+{
+    return 0.5f / sqrtf(fmaxf(light, 0) + DARK);
+}
+
 void wo_hybrid_kernels(wo_hybrid_kernel kernels[WO_HYBRID_KERNELS])
 {
     for (int q = 0; q < WO_HYBRID_KERNELS; q++) {
@@ -91,50 +99,56 @@ static int32_t clamp_to(int32_t x, int32_t from, int32_t to)
     return x < from ? from : x >= to ? to - 1 : x;
 }
 
+/* Sum of a plane over a cell. */
+static double sum_of(const wo_hybrid *h, int plane, int32_t column, int32_t row)
+{
+    const float *const at = h->plane[plane] + cell_origin(h, column, row);
+    double sum = 0;
+    for (int y = 0; y < WO_HYBRID_CELL; y++)
+        for (int x = 0; x < WO_HYBRID_CELL; x++)
+            sum += (double)at[y * h->width + x];
+    return sum;
+}
+
 void wo_hybrid_choose(wo_hybrid *h, int32_t row)
 {
+    enum { NEAR, NEAR_BLUR, FAR, FAR_BLUR, NEAR_NOISE, FAR_NOISE, OPEN, SHOWN, SUMS };
     /* Green stands for all colours. */
-    static const int sums[] = {WO_HYBRID_NEAR + WO_PART_COVERAGE + 1,
-                               WO_HYBRID_NEAR + WO_PART_BLUR,
-                               WO_HYBRID_FAR + WO_PART_COVERAGE + 1,
-                               WO_HYBRID_FAR + WO_PART_BLUR,
-                               WO_HYBRID_NOISE + 0,
-                               WO_HYBRID_NOISE + 1};
-    enum { SUMS = sizeof sums / sizeof sums[0], NOISES = WO_HYBRID_LIGHT - WO_HYBRID_NOISE };
+    static const int planes[SUMS] = {WO_HYBRID_NEAR + WO_PART_COVERAGE + 1,
+                                     WO_HYBRID_NEAR + WO_PART_BLUR,
+                                     WO_HYBRID_FAR + WO_PART_COVERAGE + 1,
+                                     WO_HYBRID_FAR + WO_PART_BLUR,
+                                     WO_HYBRID_NOISE + 0,
+                                     WO_HYBRID_NOISE + 1,
+                                     WO_HYBRID_OPEN,
+                                     WO_HYBRID_SHOWN};
+    const double cell_pixels = WO_HYBRID_CELL * WO_HYBRID_CELL;
     for (int32_t column = 0; column < h->columns; column++) {
         double sum[SUMS] = {0};
-        double noise[NOISES] = {0};
         int cells = 0;
         const wo_rect view = wo_hybrid_view(h, column, row);
         for (int32_t b = row - 1; b <= row + 1; b++) {
             for (int32_t a = column - 1; a <= column + 1; a++) {
                 if (a < view.x1 || b < view.y1 || a >= view.x2 || b >= view.y2)
                     continue;
-                const ptrdiff_t at = cell_origin(h, a, b);
                 cells++;
                 for (int s = 0; s < SUMS; s++)
-                    for (int y = 0; y < WO_HYBRID_CELL; y++)
-                        for (int x = 0; x < WO_HYBRID_CELL; x++)
-                            sum[s] += (double)h->plane[sums[s]][at + y * h->width + x];
+                    sum[s] += sum_of(h, planes[s], a, b);
             }
         }
-        const ptrdiff_t own = cell_origin(h, column, row);
-        for (int n = 0; n < NOISES; n++)
-            for (int y = 0; y < WO_HYBRID_CELL; y++)
-                for (int x = 0; x < WO_HYBRID_CELL; x++)
-                    noise[n] += (double)h->plane[WO_HYBRID_NOISE + n][own + y * h->width + x];
         wo_hybrid_cell *const cell = &h->cells[(ptrdiff_t)row * h->columns + column];
         const double rays =
             (double)
                 h->rays[row * wo_rect_width(h->tiles) + column * WO_HYBRID_CELL / WO_TILE_WIDTH];
-        cell->near = (uint8_t)wo_hybrid_kernel_for(h, true, rays, sum[0], sum[1]);
-        cell->far = (uint8_t)wo_hybrid_kernel_for(h, false, rays, sum[2], sum[3]);
-        cell->jitter = (float)(WO_HALVES_TO_ERROR * WO_HALVES_TO_ERROR * noise[3] /
-                               (WO_HYBRID_CELL * WO_HYBRID_CELL));
+        cell->near = (uint8_t)wo_hybrid_kernel_for(h, true, rays, sum[NEAR], sum[NEAR_BLUR]);
+        cell->far = (uint8_t)wo_hybrid_kernel_for(h, false, rays, sum[FAR], sum[FAR_BLUR]);
+        cell->jitter = (float)(WO_HALVES_TO_ERROR * WO_HALVES_TO_ERROR *
+                               sum_of(h, WO_HYBRID_JITTER, column, row) / cell_pixels);
         for (int n = 0; n < 3; n++)
-            cell->noise[n] = (float)(noise[n] / (WO_HYBRID_CELL * WO_HYBRID_CELL));
+            cell->noise[n] = (float)(sum_of(h, WO_HYBRID_NOISE + n, column, row) / cell_pixels);
         for (int n = 0; n < 2; n++)
-            cell->around[n] = (float)(sum[4 + n] / (cells * WO_HYBRID_CELL * WO_HYBRID_CELL));
+            cell->around[n] = (float)(sum[NEAR_NOISE + n] / (cells * cell_pixels));
+        cell->shown = sum[OPEN] > 0 ? (float)(sum[SHOWN] / sum[OPEN]) : 1;
     }
 }
 
@@ -285,11 +299,6 @@ static void add_up_smooth(const wo_hybrid *h, const wo_hybrid_cell *cell, int32_
     }
 }
 
-static float root(float x)
-{
-    return copysignf(sqrtf(fabsf(x)), x);
-}
-
 /* The estimate of noise in one cell may be too small by this. */
 #define JITTER_TRUST 4.0f
 
@@ -299,29 +308,22 @@ static float root(float x)
 #define DETAIL_LOST 0.7f
 
 /* Smoothing takes noise away, and detail. Their sum is what it moves; the part of it that noise
-   explains is taken (James and Stein 1961). *lost: mean square of the detail that goes with it, in
-   square roots of light up to white. */
+   explains is taken (James and Stein 1961). *lost: mean square of the detail that goes with it. */
 static float part_of_noise(const wo_hybrid_cell *cell, colours own, colours smoothed, float *lost)
 {
     float moved = 0;
-    float shown = 0;
     for (int y = 0; y < WO_HYBRID_CELL; y++) {
         for (int x = 0; x < WO_HYBRID_CELL; x++) {
             for (int k = 0; k < 3; k++) {
-                const float a = root(own[y][x][k]);
-                const float b = root(smoothed[y][x][k]);
-                const float d = fminf(a, 1) - fminf(b, 1);
-                moved += (a - b) * (a - b);
-                shown += d * d;
+                const float d = (own[y][x][k] - smoothed[y][x][k]) * wo_hybrid_scale(own[y][x][k]);
+                moved += d * d;
             }
         }
     }
     moved *= 1.0f / (3 * WO_HYBRID_CELL * WO_HYBRID_CELL);
-    shown *= 1.0f / (3 * WO_HYBRID_CELL * WO_HYBRID_CELL);
     const float noise = JITTER_TRUST * cell->jitter;
     const float part = moved <= noise ? 1 : noise / moved;
-    const float detail = moved > 0 ? fmaxf(1 - DETAIL_FROM * cell->jitter / moved, 0) : 0;
-    *lost = DETAIL_LOST * part * part * detail * shown;
+    *lost = DETAIL_LOST * part * part * fmaxf(moved - DETAIL_FROM * cell->jitter, 0);
     return part;
 }
 
@@ -336,7 +338,7 @@ static float noise_left(const wo_hybrid_kernel *k, float part, float own, float 
 }
 
 void wo_hybrid_join(const wo_hybrid *h, int32_t tx, int32_t ty, wo_tile_pixels *pixels,
-                    wo_tile_facts *facts)
+                    wo_tile_facts *facts, wo_hybrid_noise noise[WO_TILE_WIDTH / WO_HYBRID_CELL])
 {
     const size_t tile =
         (size_t)(ty - h->tiles.y1) * (size_t)wo_rect_width(h->tiles) + (size_t)(tx - h->tiles.x1);
@@ -357,10 +359,12 @@ void wo_hybrid_join(const wo_hybrid *h, int32_t tx, int32_t ty, wo_tile_pixels *
             add_up_smooth(h, cell, left, low, smoothed);
             part = part_of_noise(cell, own, smoothed, &lost);
         }
-        const float noise =
-            noise_left(&h->kernels[cell->near], part, cell->noise[0], cell->around[0]) +
-            noise_left(&h->kernels[cell->far], part, cell->noise[1], cell->around[1]) +
-            cell->noise[2] + lost;
+        noise[x0 / WO_HYBRID_CELL] = (wo_hybrid_noise){
+            .noise = noise_left(&h->kernels[cell->near], part, cell->noise[0], cell->around[0]) +
+                     noise_left(&h->kernels[cell->far], part, cell->noise[1], cell->around[1]) +
+                     cell->noise[2],
+            .lost = lost,
+            .shown = known ? cell->shown : NAN};
         for (int y = 0; y < WO_HYBRID_CELL; y++) {
             for (int x = 0; x < WO_HYBRID_CELL; x++) {
                 float *const c = pixels->c[y][x0 + x];
@@ -369,10 +373,7 @@ void wo_hybrid_join(const wo_hybrid *h, int32_t tx, int32_t ty, wo_tile_pixels *
                                     : own[y][x][k];
                 pixels->guessed[y][x0 + x] =
                     h->plane[WO_HYBRID_GUESSED][(low + y) * h->width + left + x];
-                facts->error[y][x0 + x] = known ? sqrtf(noise) : NAN;
                 const ptrdiff_t at = (low + y) * h->width + left + x;
-                for (int k = 0; h->plane[WO_HYBRID_LIGHT] && k < 3; k++)
-                    c[k] += h->plane[WO_HYBRID_LIGHT + k][at];
                 facts->rays[y][x0 + x] = h->rays[tile];
                 facts->mask[y][x0 + x] *=
                     1 - part * ((cell->near > 0 ? mean_coverage(h, WO_HYBRID_NEAR, at) : 0) +

@@ -6,8 +6,13 @@
 #include <math.h>
 #include <string.h>
 
-/* Near, far, rest, jitter. */
-enum { NOISES = WO_HYBRID_LIGHT - WO_HYBRID_NOISE };
+/* Near, far, rest, jitter, open, shown. */
+enum {
+    JITTER = WO_HYBRID_JITTER - WO_HYBRID_NOISE,
+    OPEN,
+    SHOWN,
+    NOISES = WO_HYBRID_LIGHT - WO_HYBRID_NOISE
+};
 
 /* One pixel of sums, each part divided by the light of its colour. */
 typedef struct split {
@@ -60,24 +65,21 @@ static bool split_pixel(const wo_tile_work *work, const wo_march_sums *sums, int
 
 /* Squares of the noise of the parts, from two halves of the rays. Coverage and colour of a part
    err together: what counts is the part against that which fills the light left by it. */
-static void noise_of(const split *all, const split *a, const split *b, const float light[3],
-                     float noise[NOISES])
+static void noise_of(const split *all, const split *a, const split *b, float noise[NOISES])
 {
     for (int k = 0; k < 3; k++) {
         const int a_k = WO_PART_COVERAGE + k;
-        const float open = 1 - all->near[a_k];
+        const float left = 1 - all->near[a_k];
         const float far_a = all->far[a_k];
-        const float behind = open > 1e-3f ? (all->c[k] - all->near[k]) / open : all->near[k];
+        const float behind = left > 1e-3f ? (all->c[k] - all->near[k]) / left : all->near[k];
         const float beyond = far_a > 1e-3f ? all->far[k] / far_a : 0;
         const float near = a->near[k] - b->near[k] - behind * (a->near[a_k] - b->near[a_k]);
         const float far = a->far[k] - b->far[k] - beyond * (a->far[a_k] - b->far[a_k]);
-        const float rest = a->c[k] - b->c[k] - near - far;
-        const float d[3] = {near, far, rest};
-        const float root = 0.25f * (near + far) / sqrtf(fmaxf(fabsf(all->c[k]), 1e-4f));
-        noise[3] += root * root * (1.0f / 3);
-        const float slope = wo_shown(a->c[k] + light[k], b->c[k] + light[k]);
-        for (int n = 0; n < 3; n++) {
-            const float e = 0.5f * slope * d[n];
+        const float scale = 0.5f * wo_hybrid_scale(all->c[k]);
+        const float open = a->c[k] - b->c[k];
+        const float d[SHOWN] = {near, far, open - near - far, near + far, open};
+        for (int n = 0; n < SHOWN; n++) {
+            const float e = scale * d[n];
             noise[n] += e * e * (1.0f / 3);
         }
     }
@@ -106,61 +108,68 @@ static void put(wo_hybrid *h, ptrdiff_t at, const split *s, float guessed,
         h->plane[WO_HYBRID_NOISE + n][at] = noise[n];
 }
 
-/* A tile on its way. */
-typedef struct tracing {
-    wo_hybrid *hybrid;
+/* A tile, looked at. */
+typedef struct looked {
+    const wo_hybrid *hybrid;
     wo_tile_light light;
-} tracing;
+    split all[WO_TILE_HEIGHT][WO_TILE_WIDTH];
+    float noise[WO_TILE_HEIGHT][WO_TILE_WIDTH][NOISES];
+    float factor; /* to variances */
+} looked;
 
 /* The parts of a pixel, and what its halves say of their noise. */
-static void look_at(const tracing *t, const wo_tile_work *work, const wo_tile_sums *sums,
-                    int32_t row, int x, split *all, float noise[NOISES], wo_noise *tile)
+static void look_at(looked *seen, const wo_tile_work *work, const wo_tile_sums *sums, int32_t row,
+                    int x, wo_noise *tile)
 {
     const int run_index = x % WO_PHASES;
     const int i = x / WO_PHASES;
     const wo_march_sums *const halves = sums->halves[row][run_index];
     wo_march_sums both = halves[0];
     wo_march_add(&both, &halves[1]);
+    split *const all = &seen->all[row][x];
+    float *const noise = seen->noise[row][x];
     split half[2];
     memset(noise, 0, NOISES * sizeof *noise);
     if (split_pixel(work, &both, row, run_index, i, all) && sums->rays > 1 &&
         split_pixel(work, &halves[0], row, run_index, i, &half[0]) &&
         split_pixel(work, &halves[1], row, run_index, i, &half[1])) {
-        noise_of(all, &half[0], &half[1], t->light[row][x], noise);
-        wo_noise_add(tile, half[0].c, half[1].c, t->light[row][x]);
+        noise_of(all, &half[0], &half[1], noise);
+        noise[SHOWN] = wo_noise_add(tile, half[0].c, half[1].c, seen->light[row][x]);
     }
 }
 
 /* What smoothing will leave of the noise, as far as this tile can tell. */
 static double error_of(void *user, const wo_tile_work *work, const wo_tile_sums *sums)
 {
-    const tracing *t = user;
-    const wo_hybrid *h = t->hybrid;
+    looked *const seen = user;
+    const wo_hybrid *h = seen->hybrid;
     wo_noise tile = {0};
     double total = 0;
     for (int x0 = 0; x0 < WO_TILE_WIDTH; x0 += WO_HYBRID_CELL) {
-        double noise[3] = {0};
+        double noise[NOISES] = {0};
         double near[2] = {0};
         double far[2] = {0};
         for (int32_t row = 0; row < WO_TILE_HEIGHT; row++) {
             for (int x = x0; x < x0 + WO_HYBRID_CELL; x++) {
-                split s;
-                float one[NOISES];
-                look_at(t, work, sums, row, x, &s, one, &tile);
-                for (int n = 0; n < 3; n++)
+                look_at(seen, work, sums, row, x, &tile);
+                const split *const s = &seen->all[row][x];
+                const float *const one = seen->noise[row][x];
+                for (int n = 0; n < NOISES; n++)
                     noise[n] += (double)one[n];
-                near[0] += (double)mean_coverage(s.near);
-                near[1] += (double)s.near[WO_PART_BLUR];
-                far[0] += (double)mean_coverage(s.far);
-                far[1] += (double)s.far[WO_PART_BLUR];
+                near[0] += (double)mean_coverage(s->near);
+                near[1] += (double)s->near[WO_PART_BLUR];
+                far[0] += (double)mean_coverage(s->far);
+                far[1] += (double)s->far[WO_PART_BLUR];
             }
         }
         const int near_kernel = wo_hybrid_kernel_for(h, true, sums->rays, near[0], near[1]);
         const int far_kernel = wo_hybrid_kernel_for(h, false, sums->rays, far[0], far[1]);
-        total += noise[0] * (double)h->kernels[near_kernel].gain +
-                 noise[1] * (double)h->kernels[far_kernel].gain + noise[2];
+        const double shown = noise[OPEN] > 0 ? noise[SHOWN] / noise[OPEN] : 1;
+        total += shown * (noise[0] * (double)h->kernels[near_kernel].gain +
+                          noise[1] * (double)h->kernels[far_kernel].gain + noise[2]);
     }
-    return wo_noise_factor(&tile) * total / (WO_TILE_WIDTH * WO_TILE_HEIGHT);
+    seen->factor = (float)wo_noise_factor(&tile);
+    return (double)seen->factor * total / (WO_TILE_WIDTH * WO_TILE_HEIGHT);
 }
 
 bool wo_hybrid_trace(wo_hybrid *h, int32_t tx, int32_t ty, wo_report *part)
@@ -180,32 +189,26 @@ bool wo_hybrid_trace(wo_hybrid *h, int32_t tx, int32_t ty, wo_report *part)
                 h->plane[WO_HYBRID_LEFT][origin + row * h->width + x] = 1;
         return true;
     }
-    tracing t = {.hybrid = h};
-    const bool lit = wo_tile_find_light(scene, tx, ty, t.light, part);
-    if (!wo_tile_sample(scene, &work, error_of, &t, &sums, part))
+    looked seen;
+    seen.hybrid = h;
+    const bool lit = wo_tile_find_light(scene, tx, ty, seen.light, part);
+    if (!wo_tile_sample(scene, &work, error_of, &seen, &sums, part))
         return false;
     h->rays[tile] = (float)sums.rays;
-    wo_noise tile_noise = {0};
     for (int32_t row = 0; row < WO_TILE_HEIGHT; row++) {
         for (int x = 0; x < WO_TILE_WIDTH; x++) {
             const int run_index = x % WO_PHASES;
             const int i = x / WO_PHASES;
             const wo_march_sums *const halves = sums.halves[row][run_index];
-            split all;
-            float noise[NOISES];
-            look_at(&t, &work, &sums, row, x, &all, noise, &tile_noise);
-            put(h, origin + row * h->width + x, &all,
+            for (int n = 0; n < JITTER; n++)
+                seen.noise[row][x][n] *= seen.factor;
+            put(h, origin + row * h->width + x, &seen.all[row][x],
                 fminf(fmaxf((halves[0].guessed[i] + halves[1].guessed[i]) / (float)sums.scale, 0),
                       1),
-                noise);
+                seen.noise[row][x]);
             for (int k = 0; lit && k < 3; k++)
-                h->plane[WO_HYBRID_LIGHT + k][origin + row * h->width + x] = t.light[row][x][k];
+                h->plane[WO_HYBRID_LIGHT + k][origin + row * h->width + x] = seen.light[row][x][k];
         }
     }
-    const float factor = (float)wo_noise_factor(&tile_noise);
-    for (int n = 0; n < WO_HYBRID_JITTER - WO_HYBRID_NOISE; n++)
-        for (int32_t row = 0; row < WO_TILE_HEIGHT; row++)
-            for (int x = 0; x < WO_TILE_WIDTH; x++)
-                h->plane[WO_HYBRID_NOISE + n][origin + row * h->width + x] *= factor;
     return true;
 }

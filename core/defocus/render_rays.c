@@ -89,7 +89,6 @@ static bool rays_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_ti
         }
     }
     if (!wo_ray_tile_straight(work.tile)) {
-        error_of(&noise, &work, &sums);
         for (int s = 0; sums.rays == 1 && s < SQUARES; s++)
             noise.variance[s] = NAN;
         put_errors(&noise, facts);
