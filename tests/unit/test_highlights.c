@@ -18,7 +18,7 @@ static wo_sheet sheet_make(float v)
     assert_int_equal(wo_sheet_create(&plain, area, &sheet, NULL), WO_OK);
     for (size_t i = 0; i < WIDTH * HEIGHT; i++) {
         sheet.v[i] = v;
-        sheet.c[i][3] = 1;
+        memcpy(sheet.c[i], (const float[4]){0, 0, 0, 1}, sizeof sheet.c[i]);
     }
     sheet.any = true;
     return sheet;
