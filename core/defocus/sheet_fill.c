@@ -8,6 +8,8 @@
 #define GAP_PX 1.0
 /* Less weight than this is no evidence of a surface. */
 #define WEIGHT_MIN 1e-4f
+/* So much a light is still worth where there is nothing else. */
+#define TRUST_MIN 1e-3f
 
 enum { LEVELS_MAX = 16, CHANNELS = 6 }; /* r g b a, vergence: all times weight; weight */
 
@@ -60,6 +62,13 @@ static void farthest_row(void *user, size_t index, unsigned worker)
     }
 }
 
+/* What a colour says about what is beside it: lights are small, and do not go on. */
+static float trust(const float c[4])
+{
+    const float bright = fmaxf(fmaxf(c[0], c[1]), fmaxf(c[2], 1));
+    return fmaxf(1 / (bright * bright), TRUST_MIN);
+}
+
 /* Each near side of an edge learns the mean of the farther surfaces beside it. */
 static void seed_row(void *user, size_t index, unsigned worker)
 {
@@ -72,6 +81,7 @@ static void seed_row(void *user, size_t index, unsigned worker)
     for (int32_t x = 0; x < w; x++) {
         const size_t at = index * (size_t)w + (size_t)x;
         float *sum = job->fine->sum[at];
+        int count = 0;
         if (isnan(job->far_v[at]))
             continue;
         for (int32_t b = y > 0 ? -1 : 0; b <= (y + 1 < h); b++) {
@@ -80,13 +90,15 @@ static void seed_row(void *user, size_t index, unsigned worker)
                 if (!((double)job->far_v[at] - job->far_v[q] > job->gap))
                     continue;
                 const float *c = job->sheets[job->far_sheet[q]].c[q];
+                const float weight = trust(c);
                 for (int k = 0; k < 4; k++)
-                    sum[k] += c[k];
-                sum[4] += job->far_v[q];
-                sum[5] += 1;
+                    sum[k] += weight * c[k];
+                sum[4] += weight * job->far_v[q];
+                sum[5] += weight;
+                count++;
             }
         }
-        const float scale = sum[5] > 0 ? 1 / sum[5] : 0;
+        const float scale = count > 0 ? 1 / (float)count : 0;
         for (int k = 0; k < CHANNELS; k++)
             sum[k] *= scale;
     }
