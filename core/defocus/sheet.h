@@ -105,18 +105,28 @@ WO_NODISCARD wo_status wo_sheet_repair_depth(const wo_context *context,
 
 /* Splits pixels that mix two surfaces (antialiased colour over unfiltered or repaired depth) into
    the part that belongs to their own depth, which stays, and the part of the neighbouring surface,
-   which goes into edges, where that pixel is still free. Only steps of vergence that make a visible
-   difference of blur count (px_per_dioptre). The parts are those that explain the colour; where the
-   two surfaces have much the same colour, those of mix (of wo_sheet_repair_depth; NULL = unknown).
-   edges must have the sheet's area and start as all NaN; *split is added to. */
+   which goes into edges, where that pixel is still free: of several surfaces around, the one that
+   explains the colour best, and among equals the one that is farthest from its own. Only steps of
+   vergence that make a visible difference of blur count (px_per_dioptre). The parts are those that
+   explain the colour; where the two surfaces have much the same colour, those of mix (of
+   wo_sheet_repair_depth; NULL = unknown). edges must have the sheet's area and start as all NaN;
+   *split is added to. */
 WO_NODISCARD wo_status wo_sheet_split_edges(const wo_context *context, double px_per_dioptre,
                                             const float *mix, wo_sheet *sheet, wo_sheet *edges,
                                             int64_t *split, wo_error *error);
 #define WO_SHEET_SPLIT_MARGIN 3
 
 /* Invents what lies behind the farthest surfaces of the sheets: wherever a farther surface ends at
-   a nearer one, it is continued behind it, smoothly, up to about 2^levels px. The pull-push
-   interpolation of Gortler et al. 1996, on a grid fixed in absolute coordinates. */
+   a nearer one, it is continued behind it, up to about 2^levels px, on a grid fixed in absolute
+   coordinates.
+   - Deep behind: smoothly, by the pull-push interpolation of Gortler et al. 1996.
+   - Up to 16 px behind an edge: the mean, over lines in all directions, of the farther surfaces at
+     their ends, each weighted by the inverse of its distance: mean value interpolation (Floater
+     2003), which is nearly the smoothest surface through all of the edge, and of all guesses
+   without further knowledge that with the least expected error. A line counts more when its two
+   ends are alike and differ from all others: a rod or a joint that goes on behind a wire. Colours
+   brighter than white (1) count with the inverse of their square: lights are small, and one at an
+   edge would else glow all along behind it. */
 WO_NODISCARD wo_status wo_sheet_fill_hidden(const wo_context *context, const wo_sheet *sheets,
                                             size_t count, double px_per_dioptre, int levels,
                                             wo_sheet *hidden, wo_error *error);

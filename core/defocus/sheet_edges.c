@@ -11,6 +11,8 @@
 #define MIX_MIN 0.004
 /* How far from the line between the two pure colours a mixture may lie, relative to its length. */
 #define RESIDUAL_MAX 0.5
+/* A third surface must explain a colour so much better, in squared distance. */
+#define BETTER 0.25
 /* Squared distance of two colours from which on colour says more about a mixture than depth. */
 #define DEPTH_TRUST 0.01
 
@@ -52,19 +54,27 @@ static void mark_row(void *user, size_t index, unsigned worker)
     }
 }
 
-/* The surface beside (x, y) with the largest step of vergence; NaN when there is none. */
-static float other_surface(const split_job *job, int32_t x, int32_t y)
+/* The surfaces beside (x, y), the largest step of vergence first; at most 8. */
+static int other_surfaces(const split_job *job, int32_t x, int32_t y, float others[8])
 {
     const float *v = job->sheet->v;
     const float own = v[(size_t)y * (size_t)job->w + (size_t)x];
-    float best = NAN;
+    int count = 0;
     for (int32_t b = y > 0 ? -1 : 0; b <= (y + 1 < job->h); b++)
         for (int32_t a = x > 0 ? -1 : 0; a <= (x + 1 < job->w); a++) {
             const float q = v[(size_t)(y + b) * (size_t)job->w + (size_t)(x + a)];
-            if (!isnan(q) && differs(job, q, own) && !(fabsf(q - own) <= fabsf(best - own)))
-                best = q;
+            if (isnan(q) || !differs(job, q, own))
+                continue;
+            int k = count++;
+            for (; k > 0 && fabsf(others[k - 1] - own) < fabsf(q - own); k--)
+                others[k] = others[k - 1];
+            others[k] = q;
         }
-    return best;
+    int kept = 0;
+    for (int i = 0; i < count; i++)
+        if (kept == 0 || differs(job, others[i], others[kept - 1]))
+            others[kept++] = others[i];
+    return kept;
 }
 
 /* Mean colours of the two surfaces around (x, y), from pixels that mix nothing where there are any.
@@ -106,37 +116,51 @@ static bool pure_colours(const split_job *job, int32_t x, int32_t y, float other
 }
 
 /* Fraction of the other surface in a mixed colour; 0 when it is no such mixture. expected: what the
-   depth says, NaN = nothing. */
-static double mixture(const float c[4], const double own[4], const double other[4], double expected)
+   depth says, NaN = nothing. *off: squared distance from the mixture. */
+static double mixture(const float c[4], const double own[4], const double other[4], double expected,
+                      double *off)
 {
     double along = 0;
     double length = 0;
-    double off = 0;
+    *off = 0;
     for (int k = 0; k < 4; k++) {
         const double d = other[k] - own[k];
         along += (c[k] - own[k]) * d;
         length += d * d;
+        *off += (c[k] - own[k]) * (c[k] - own[k]);
     }
     if (!(length > 1e-6))
         return isnan(expected) ? 0 : expected;
     const double trust = isnan(expected) ? 0 : DEPTH_TRUST;
     const double f =
         fmin(fmax((along + (trust > 0 ? trust * expected : 0)) / (length + trust), 0), 1);
+    *off = 0;
     for (int k = 0; k < 4; k++) {
         const double r = c[k] - own[k] - f * (other[k] - own[k]);
-        off += r * r;
+        *off += r * r;
     }
-    return off <= RESIDUAL_MAX * RESIDUAL_MAX * length ? f : 0;
+    return *off <= RESIDUAL_MAX * RESIDUAL_MAX * length ? f : 0;
 }
 
-static void split_pixel(split_job *job, size_t at, float other_v, double f, const double own[4],
-                        const double other[4])
+/* A pixel as the mixture of its own surface and one beside it. */
+typedef struct mixed {
+    float v;       /* of the other surface */
+    double f;      /* its part */
+    double own[4]; /* pure colours */
+    double other[4];
+    double off; /* squared distance from the pixel's colour */
+} mixed;
+
+static void split_pixel(split_job *job, size_t at, const mixed *m)
 {
+    const double f = m->f;
+    const double *own = m->own;
+    const double *other = m->other;
     const float *c = job->colour[at];
     float *back = job->sheet->c[at];
     float *front = job->edges->c[at];
-    const bool other_in_front = other_v > job->sheet->v[at];
-    job->edges->v[at] = other_v;
+    const bool other_in_front = m->v > job->sheet->v[at];
+    job->edges->v[at] = m->v;
     for (int k = 0; k < 4; k++) {
         const double rest = fmax(c[k] - f * other[k], fmin((1 - f) * own[k], 0));
         if (!other_in_front) {
@@ -161,17 +185,22 @@ static void split_row(void *user, size_t index, unsigned worker)
         const size_t at = index * (size_t)job->w + (size_t)x;
         if (!job->edge[at] || !isnan(job->edges->v[at]))
             continue;
-        double own[4];
-        double other[4];
-        const float other_v = other_surface(job, x, (int32_t)index);
-        if (!pure_colours(job, x, (int32_t)index, other_v, own, other))
+        mixed best = {.off = HUGE_VAL};
+        float others[8];
+        const int count = other_surfaces(job, x, (int32_t)index, others);
+        for (int i = 0; i < count; i++) {
+            mixed m = {.v = others[i]};
+            if (!pure_colours(job, x, (int32_t)index, m.v, m.own, m.other))
+                continue;
+            const double near_part = job->mix ? job->mix[at] : NAN;
+            const double expected = m.v > job->sheet->v[at] ? near_part : 1 - near_part;
+            m.f = mixture(job->colour[at], m.own, m.other, expected, &m.off);
+            if (m.off < BETTER * best.off)
+                best = m;
+        }
+        if (best.f < MIX_MIN)
             continue;
-        const double near_part = job->mix ? job->mix[at] : NAN;
-        const double expected = other_v > job->sheet->v[at] ? near_part : 1 - near_part;
-        const double f = mixture(job->colour[at], own, other, expected);
-        if (f < MIX_MIN)
-            continue;
-        split_pixel(job, at, other_v, f, own, other);
+        split_pixel(job, at, &best);
         job->rows[index]++;
     }
 }

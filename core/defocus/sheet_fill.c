@@ -9,6 +9,21 @@
 #define GAP_PX 1.0
 /* Less weight than this is no evidence of a surface. */
 #define WEIGHT_MIN 1e-4f
+/* So much a light is still worth where there is nothing else. */
+#define TRUST_MIN 1e-3f
+
+/* Lines through a pixel, and how many steps along each are looked at, at most. */
+enum { LINES = 8, FIRST_LINES = 4, REACH = 16, CELL = 8 };
+static const int8_t line_way[LINES][2] = {{1, 0}, {0, 1}, {1, 1},  {-1, 1},
+                                          {5, 2}, {2, 5}, {-2, 5}, {-5, 2}};
+/* Two ends of a line whose colours differ by this belong together hardly any more; a px of blur
+   between them counts as BLUR_AS_COLOUR. */
+#define ALIKE          0.15f
+#define BLUR_AS_COLOUR 0.3f
+/* What an end counts whose line has no other end. */
+#define ALONE 0.3f
+/* The smooth continuation counts as an end so far away, 1/px. */
+#define SMOOTH 0.1f
 
 enum { LEVELS_MAX = 16, CHANNELS = 6 }; /* r g b a, vergence: all times weight; weight */
 
@@ -16,6 +31,11 @@ typedef struct level {
     wo_rect cells; /* in units of 2^k px, absolute */
     float (*sum)[CHANNELS];
 } level;
+
+typedef struct line_step {
+    int x, y;
+    ptrdiff_t offset;
+} line_step;
 
 typedef struct fill_job {
     const wo_sheet *sheets;
@@ -26,6 +46,11 @@ typedef struct fill_job {
     wo_sheet *hidden;
     float *far_v; /* farthest surface of each pixel, NaN when none */
     uint8_t *far_sheet;
+    int reach; /* steps along lines */
+    line_step step[LINES][REACH + 2];
+    float length[LINES]; /* px of a step */
+    float *cell_far;     /* farthest vergence of each CELL x CELL px */
+    int32_t cell_columns, cell_rows;
 } fill_job;
 
 static size_t cell_at(const level *l, int32_t x, int32_t y)
@@ -64,6 +89,13 @@ static void farthest_row(void *user, size_t index, unsigned worker)
     }
 }
 
+/* What a colour says about what is beside it: lights are small, and do not go on. */
+static float trust(const float c[4])
+{
+    const float bright = fmaxf(fmaxf(c[0], c[1]), fmaxf(c[2], 1));
+    return fmaxf(1 / (bright * bright), TRUST_MIN);
+}
+
 /* Each near side of an edge learns the mean of the farther surfaces beside it. */
 static void seed_row(void *user, size_t index, unsigned worker)
 {
@@ -77,6 +109,7 @@ static void seed_row(void *user, size_t index, unsigned worker)
     for (int32_t x = 0; x < w; x++) {
         const size_t at = index * (size_t)w + (size_t)x;
         float *sum = job->fine->sum[at];
+        int count = 0;
         if (x % WO_STRIP == 0)
             even = wo_sheet_even(job->far_v, w, h, x, y, 1, job->gap, true);
         if (even || isnan(job->far_v[at]))
@@ -87,13 +120,15 @@ static void seed_row(void *user, size_t index, unsigned worker)
                 if (!((double)job->far_v[at] - job->far_v[q] > job->gap))
                     continue;
                 const float *c = job->sheets[job->far_sheet[q]].c[q];
+                const float weight = trust(c);
                 for (int k = 0; k < 4; k++)
-                    sum[k] += c[k];
-                sum[4] += job->far_v[q];
-                sum[5] += 1;
+                    sum[k] += weight * c[k];
+                sum[4] += weight * job->far_v[q];
+                sum[5] += weight;
+                count++;
             }
         }
-        const float scale = sum[5] > 0 ? 1 / sum[5] : 0;
+        const float scale = count > 0 ? 1 / (float)count : 0;
         for (int k = 0; k < CHANNELS; k++)
             sum[k] *= scale;
     }
@@ -178,6 +213,198 @@ static void emit_row(void *user, size_t index, unsigned worker)
     }
 }
 
+/* Where a line first meets a farther surface. */
+typedef struct line_end {
+    float distance; /* px; 0 = nowhere */
+    float c[4];
+    float v;
+} line_end;
+
+/* Of so many steps those that stay inside the area. */
+static int steps_inside(const fill_job *job, int32_t x, int32_t y, int line, int sign, int steps)
+{
+    const int32_t w = wo_rect_width(job->hidden->area);
+    const int32_t h = wo_rect_height(job->hidden->area);
+    for (; steps > 0; steps--) {
+        const int32_t i = x + sign * job->step[line][steps].x;
+        const int32_t j = y + sign * job->step[line][steps].y;
+        if (i >= 0 && j >= 0 && i < w && j < h)
+            break;
+    }
+    return steps;
+}
+
+/* The end's colour is the mean of the first two pixels: the first may be a mixture. */
+static line_end find_end(const fill_job *job, int32_t x, int32_t y, int line, int sign, int reach)
+{
+    line_end end = {0};
+    const float *v = job->far_v + (size_t)y * (size_t)wo_rect_width(job->hidden->area) + x;
+    const float gap = (float)job->gap;
+    const float own = *v - gap;
+    const int inside = steps_inside(job, x, y, line, sign, reach + 1);
+    float before = own;
+    for (int n = 1; n <= reach && n <= inside; n++) {
+        const ptrdiff_t at = sign * job->step[line][n].offset;
+        const bool farther = v[at] < own && v[at] < before;
+        before = v[at] - gap;
+        if (isnan(before))
+            break;
+        if (!farther)
+            continue;
+        const ptrdiff_t next = n < inside ? sign * job->step[line][n + 1].offset : at;
+        end.v = v[at];
+        float sum = 0;
+        for (int i = 0; i < 2; i++) {
+            const float *q = v + (i == 0 ? at : next);
+            if (!(fabsf(*q - end.v) <= gap))
+                continue;
+            const float *c = job->sheets[job->far_sheet[q - job->far_v]].c[q - job->far_v];
+            const float weight = trust(c);
+            for (int k = 0; k < 4; k++)
+                end.c[k] += weight * c[k];
+            sum += weight;
+        }
+        /* A light says nothing. */
+        if (sum < 0.5f)
+            break;
+        for (int k = 0; k < 4; k++)
+            end.c[k] /= sum;
+        end.distance = (float)n * job->length[line];
+        break;
+    }
+    return end;
+}
+
+/* How much the two ends of a line look like one thing that goes on between them: more when they
+   are alike and differ from what is around, less the longer the line is than the shortest. */
+static float belong(const fill_job *job, const line_end end[2], const float mean[3], float shortest)
+{
+    const float shorter = shortest / (end[0].distance + end[1].distance);
+    const float blur = (end[0].v - end[1].v) / (float)job->gap * BLUR_AS_COLOUR;
+    float apart = ALIKE * ALIKE + blur * blur;
+    float special = ALIKE * ALIKE;
+    for (int k = 0; k < 3; k++) {
+        const float d = end[0].c[k] - end[1].c[k];
+        const float m = 0.5f * (end[0].c[k] + end[1].c[k]) - mean[k];
+        apart += d * d;
+        special += m * m;
+    }
+    return shorter * shorter * shorter * special / apart;
+}
+
+/* Continues what ends at a near thing on both sides of it. */
+static void look_across(const fill_job *job, int32_t x, int32_t y, int reach, float c[4], float *v)
+{
+    line_end end[LINES][2];
+    float mean[3] = {0};
+    float weight = 0;
+    float shortest = INFINITY;
+    for (int line = 0; line < LINES; line++) {
+        /* Too deep behind: the first lines, all around, would have found something. */
+        if (line == FIRST_LINES && !(weight > 0))
+            return;
+        for (int e = 0; e < 2; e++) {
+            const line_end *const found = &end[line][e];
+            end[line][e] = find_end(job, x, y, line, 1 - 2 * e, reach);
+            if (!(found->distance > 0))
+                continue;
+            weight += 1 / found->distance;
+            for (int k = 0; k < 3; k++)
+                mean[k] += found->c[k] / found->distance;
+        }
+        if (end[line][0].distance > 0 && end[line][1].distance > 0)
+            shortest = fminf(shortest, end[line][0].distance + end[line][1].distance);
+    }
+    for (int k = 0; k < 3; k++)
+        mean[k] /= weight;
+    float sum[5] = {SMOOTH * c[0], SMOOTH * c[1], SMOOTH * c[2], SMOOTH * c[3], SMOOTH * *v};
+    weight = SMOOTH;
+    for (int line = 0; line < LINES; line++) {
+        const bool both = end[line][0].distance > 0 && end[line][1].distance > 0;
+        const float factor = both ? belong(job, end[line], mean, shortest) : ALONE;
+        for (int e = 0; e < 2; e++) {
+            const line_end *const found = &end[line][e];
+            if (!(found->distance > 0))
+                continue;
+            const float w =
+                factor * (1 / found->distance - 1 / (job->length[line] * (float)(reach + 1)));
+            for (int k = 0; k < 4; k++)
+                sum[k] += w * found->c[k];
+            sum[4] += w * found->v;
+            weight += w;
+        }
+    }
+    for (int k = 0; k < 4; k++)
+        c[k] = sum[k] / weight;
+    *v = sum[4] / weight;
+}
+
+static void cell_far_row(void *user, size_t index, unsigned worker)
+{
+    (void)worker;
+    fill_job *job = user;
+    const int32_t w = wo_rect_width(job->hidden->area);
+    const int32_t h = wo_rect_height(job->hidden->area);
+    for (int32_t i = 0; i < job->cell_columns; i++) {
+        float far = INFINITY;
+        for (int32_t y = (int32_t)index * CELL; y < ((int32_t)index + 1) * CELL && y < h; y++)
+            for (int32_t x = i * CELL; x < (i + 1) * CELL && x < w; x++)
+                far = fminf(far, job->far_v[(size_t)y * (size_t)w + (size_t)x]);
+        job->cell_far[index * (size_t)job->cell_columns + (size_t)i] = far;
+    }
+}
+
+/* Farthest vergence that a line from somewhere in a cell can meet. */
+static float far_around(const fill_job *job, int32_t column, int32_t row)
+{
+    const int32_t ring = (job->reach + CELL - 1) / CELL;
+    float far = INFINITY;
+    for (int32_t j = row > ring ? row - ring : 0; j <= row + ring && j < job->cell_rows; j++)
+        for (int32_t i = column > ring ? column - ring : 0;
+             i <= column + ring && i < job->cell_columns; i++)
+            far = fminf(far, job->cell_far[(size_t)j * (size_t)job->cell_columns + (size_t)i]);
+    return far;
+}
+
+static void across_row(void *user, size_t index, unsigned worker)
+{
+    (void)worker;
+    const fill_job *job = user;
+    const int32_t w = wo_rect_width(job->hidden->area);
+    const int32_t y = (int32_t)index;
+    for (int32_t column = 0; column < job->cell_columns; column++) {
+        const float far = far_around(job, column, y / CELL);
+        for (int32_t x = column * CELL; x < (column + 1) * CELL && x < w; x++) {
+            const size_t at = index * (size_t)w + (size_t)x;
+            float *v = &job->hidden->v[at];
+            const double parallax = ((double)job->far_v[at] - (double)far) / job->gap * GAP_PX;
+            if (isnan(*v) || !(parallax > GAP_PX))
+                continue;
+            const int reach = (int)fmin(2 * parallax + 2, job->reach);
+            look_across(job, x, y, reach, job->hidden->c[at], v);
+        }
+    }
+}
+
+/* Steps along the lines: one px of the longer axis each. */
+static void make_lines(fill_job *job, int levels)
+{
+    const int margin = wo_sheet_fill_margin(levels);
+    job->reach = margin - 1 < REACH ? margin - 1 : REACH;
+    for (int line = 0; line < LINES; line++) {
+        const int a = line_way[line][0];
+        const int b = line_way[line][1];
+        const double longer = fmax(fabs((double)a), fabs((double)b));
+        job->length[line] = (float)(sqrt((double)(a * a + b * b)) / longer);
+        for (int n = 0; n < REACH + 2; n++) {
+            line_step *const step = &job->step[line][n];
+            step->x = (int)round(n * a / longer);
+            step->y = (int)round(n * b / longer);
+            step->offset = (ptrdiff_t)step->y * wo_rect_width(job->hidden->area) + step->x;
+        }
+    }
+}
+
 int32_t wo_sheet_fill_margin(int levels)
 {
     return (int32_t)1 << (levels + 1);
@@ -193,6 +420,11 @@ wo_status wo_sheet_fill_hidden(const wo_context *context, const wo_sheet *sheets
     wo_status status = WO_ERR_NOMEM;
     levels = levels > LEVELS_MAX ? LEVELS_MAX : levels;
     if (!(job.far_v = wo_new_raw(context, error, n, sizeof *job.far_v)))
+        goto done;
+    job.cell_columns = (wo_rect_width(hidden->area) + CELL - 1) / CELL;
+    job.cell_rows = (wo_rect_height(hidden->area) + CELL - 1) / CELL;
+    if (!(job.cell_far = wo_new(context, error, (size_t)job.cell_columns * (size_t)job.cell_rows,
+                                sizeof *job.cell_far)))
         goto done;
     if (!(job.far_sheet = wo_new_raw(context, error, n, sizeof *job.far_sheet)))
         goto done;
@@ -218,6 +450,9 @@ wo_status wo_sheet_fill_hidden(const wo_context *context, const wo_sheet *sheets
         wo_run(context, push_row, &job, (size_t)wo_rect_height(job.fine->cells));
     }
     wo_run(context, emit_row, &job, h);
+    make_lines(&job, levels);
+    wo_run(context, cell_far_row, &job, (size_t)job.cell_rows);
+    wo_run(context, across_row, &job, h);
     hidden->guessed = true;
     for (size_t i = 0; i < n && !hidden->any; i++)
         hidden->any = !isnan(hidden->v[i]);
@@ -226,6 +461,7 @@ done:
     for (int k = 0; k <= levels; k++)
         wo_delete(context, pyramid[k].sum);
     wo_delete(context, job.far_v);
+    wo_delete(context, job.cell_far);
     wo_delete(context, job.far_sheet);
     return status;
 }
