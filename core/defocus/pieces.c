@@ -235,8 +235,8 @@ static wo_status cut(const wo_context *context, cut_job *job, wo_error *error)
         count += here;
     }
     if (count > 0)
-        to->memory = wo_new_large(context, error, count,
-                                  WO_PIECE_PLANES * WO_PIECE_PLANE * sizeof *to->memory);
+        to->memory = wo_new_raw(context, error, count,
+                                WO_PIECE_PLANES * WO_PIECE_PLANE * sizeof *to->memory);
     if (to->memory)
         wo_run(context, cut_row, job, rows);
     wo_delete(context, job->first);

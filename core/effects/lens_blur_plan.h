@@ -20,7 +20,9 @@ struct wo_plan {
     wo_rect window;
     wo_image mask, source; /* borrowed */
     wo_alpha source_alpha;
-    int levels;                              /* the lens with more and more rays */
+    int lenses;                              /* all of one lens, with other numbers of rays */
+    int levels;                              /* the first ones: more and more rays */
+    int taps;                                /* one for wo_defocus.taps; -1 = not wanted */
     wo_thin_pencils *pencils[WO_LEVELS_MAX]; /* the one or the other */
     wo_table_pencils *table[WO_LEVELS_MAX];  /* [0] owns the table */
     wo_lens level[WO_LEVELS_MAX];
@@ -32,6 +34,7 @@ struct wo_plan {
     wo_lens upright[WO_LEVELS_MAX]; /* before the tilt */
     wo_tilted_pencils tilted[WO_LEVELS_MAX];
     wo_lens lens; /* the last level */
+    double reach; /* px: no ray goes farther in this scene */
     wo_stack stack;
     wo_highlights highlights;
     wo_lens_rays rays;
