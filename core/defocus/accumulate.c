@@ -310,7 +310,7 @@ bool wo_accumulate_add(const wo_accumulate *all, wo_accumulator *worker, const w
 {
     const double detail = wo_accumulate_level(all, tx, ty, lens->count);
     const int last = (int)ceil(detail);
-    read_rays(lens, pass % lens->sets, worker, tx, ty);
+    read_rays(lens, wo_hash(pass) % lens->sets, worker, tx, ty);
     for (int half = 0; half < 2; half++) {
         const int first = half == 0 ? 0 : lens->half;
         const int end = half == 0 ? lens->half : lens->count;

@@ -31,7 +31,7 @@ static float part_over(float variance, float noise)
 }
 
 void wo_hybrid_lean_on(float (*const rays[WO_HYBRID_CELL])[4],
-                       float (*const filtered[WO_HYBRID_CELL])[4], float noise,
+                       float (*const filtered[WO_HYBRID_CELL])[4], const wo_hybrid_noise *noise,
                        wo_hybrid_lean *lean)
 {
     enum { PIXELS = WO_HYBRID_CELL * WO_HYBRID_CELL };
@@ -52,11 +52,12 @@ void wo_hybrid_lean_on(float (*const rays[WO_HYBRID_CELL])[4],
                                      wo_hybrid_scale(filtered[y][x][k]) -
                                  lean->shift[k]);
     detail *= 1.0f / (3 * PIXELS);
-    lean->keep = part_over(detail, NOISE_TRUST * noise);
-    const float shift = part_over(shifted, MEAN_NOISE * noise);
+    lean->keep = part_over(detail, NOISE_TRUST * noise->noise);
+    const float shift = part_over(shifted, MEAN_NOISE * noise->noise);
     for (int k = 0; k < 4; k++)
         lean->shift[k] *= shift;
-    lean->error = noise * (lean->keep + LEFT_OVER * (1 - lean->keep));
+    lean->error =
+        noise->shown * (noise->noise + noise->lost) * (lean->keep + LEFT_OVER * (1 - lean->keep));
 }
 
 /* Shift and keep between the cells. */
