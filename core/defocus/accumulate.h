@@ -15,7 +15,7 @@ typedef struct wo_accumulate {
     const wo_draw_kernels *kernels;
     wo_pieces pieces[WO_LEVELS];
     int levels;      /* made of these */
-    float v_connect; /* dioptres: a coarser pixel mixes no more */
+    float v_connect; /* dioptres, as in wo_march_view; a coarser pixel mixes no more */
 } wo_accumulate;
 
 WO_NODISCARD wo_status wo_accumulate_create(const wo_defocus *scene, wo_accumulate *all,

@@ -83,6 +83,7 @@ typedef struct wo_view {
 /* What may be seen in a view. */
 typedef struct wo_draw {
     const wo_pieces *pieces;
+    float v_connect;                 /* as in wo_march_view, of the level */
     int32_t x1, y1;                  /* first pixel of the view, in pixels of the level */
     wo_bounds bounds[WO_SHEETS_MAX]; /* of each sheet; no pixel outside of them can be seen */
     float v_low, v_high;             /* of all of these */

@@ -12,9 +12,8 @@
 /* The displacement A + B v: s(v) = am + bm v along its longer axis, n = n0 + slope s across. */
 typedef struct line {
     float am, bm, n0, slope;
-    int upright;   /* the longer axis is y */
-    int dir;       /* of a ray's steps from near to far */
-    float connect; /* dioptres: neighbours closer than this are one surface for the ray */
+    int upright; /* the longer axis is y */
+    int dir;     /* of a ray's steps from near to far */
 } line;
 
 WO_SIMD line line_of(const wo_view_ray *ray)
@@ -28,7 +27,6 @@ WO_SIMD line line_of(const wo_view_ray *ray)
     l.slope = l.bm != 0 ? bn / l.bm : 0;
     l.n0 = an - l.slope * l.am;
     l.dir = l.bm >= 0 ? -1 : 1;
-    l.connect = WO_CONNECT_PX / fmaxf(fabsf(l.bm), 1e-30f);
     return l;
 }
 
@@ -114,6 +112,7 @@ typedef struct drawing {
     const wo_view_ray *rays;
     int count;
     line l;
+    float connect; /* dioptres: neighbours closer than this are one surface */
     wo_view *view;
     int64_t writes;
 } drawing;
@@ -127,7 +126,6 @@ WO_SIMD void shade(const wo_piece *piece, int at, float connect, const vf w[9], 
     const float *const alpha = plane + WO_PIECE_ALPHA * WO_PIECE_PLANE;
     const float *const red = plane + WO_PIECE_RED * WO_PIECE_PLANE;
     const vf here = v_load(v + at);
-    const bool joined = piece->full && piece->high - piece->low <= connect;
     vf own = w[4];
     for (int k = 0; k < 3; k++)
         c[k] = v_set(0);
@@ -136,7 +134,7 @@ WO_SIMD void shade(const wo_piece *piece, int at, float connect, const vf w[9], 
             continue;
         const int beside = at + (n / 3 - 1) * WO_PIECE_ROW + n % 3 - 1;
         vf part = w[n];
-        if (!joined) {
+        if (!(piece->full && piece->high - piece->low <= connect)) {
             const vf away = v_abs(v_sub(v_load(v + beside), here));
             const vm full = v_less_equal(v_set(1), v_load(alpha + beside));
             part = v_mask(m_and(v_less_equal(away, v_set(connect)), full), part);
@@ -221,7 +219,7 @@ static void draw_moved(drawing *g, const wo_piece *piece, int first, int last, i
         if (moves)
             stencil_beside(&g->l, i, v_fma(bm, v, am), w);
         if (near)
-            shade(piece, at, g->l.connect, w, c);
+            shade(piece, at, g->connect, w, c);
         else
             plain(piece, at, c);
         put(view, place, mask, v, c, v_set(guess));
@@ -271,7 +269,7 @@ static void draw_step(drawing *g, const wo_piece *piece, int row, int32_t x, int
     if (i <= WO_SMOOTH_PX && i >= -WO_SMOOTH_PX) {
         vf w[9];
         stencil_beside(l, i, v_mask(mask, v_mul(dir, v_select(crossed, cross_t, e))), w);
-        shade(piece, at, g->l.connect, w, c);
+        shade(piece, at, g->connect, w, c);
     } else {
         plain(piece, at, c);
     }
@@ -428,7 +426,7 @@ static void draw_thin(drawing *g, const wo_thin_hit *hit)
         }
         float own = 1;
         for (int n = 0; n < 9; n++)
-            own -= w[n] = thin->around->away[n] <= l->connect ? w[n] : 0;
+            own -= w[n] = thin->around->away[n] <= g->connect ? w[n] : 0;
         for (int k = 0; k < 4; k++)
             c[k] *= own;
         for (int n = 0; n < 9; n++)
@@ -588,6 +586,7 @@ static void draw_thins(drawing *g)
 static int64_t draw(const wo_draw *d, const wo_view_ray *rays, int count, wo_view *view)
 {
     drawing g = {.d = d, .rays = rays, .count = count, .l = line_of(rays), .view = view};
+    g.connect = wo_march_connect(d->v_connect, fabsf(g.l.bm));
     for (int place = 0; place < view->height * WO_VIEW_ROW; place += WO_LANES)
         v_store(view->plane[WO_VIEW_V] + place, v_set(-INFINITY));
     for (int k = WO_VIEW_RED; k < WO_VIEW_PLANES; k++)
@@ -618,8 +617,7 @@ static void add(const wo_view *view, const uint8_t *lost, float count, const flo
             vf guessed = v_load(view->plane[WO_VIEW_GUESSED] + from);
             vf seen = one;
             if (m_any(v_less(alpha, one))) {
-                float part[WO_LANES];
-                float guess[WO_LANES];
+                float part[WO_LANES], guess[WO_LANES];
                 v_store(part, alpha);
                 v_store(guess, guessed);
                 for (int n = 0; n < WO_LANES; n++) {

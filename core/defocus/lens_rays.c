@@ -192,7 +192,8 @@ static wo_march_view view_of(const wo_lens_rays *rays, const wo_ray_tile *tile)
     wo_march_view view = {.opaque = stack->opaque,
                           .run = stack->run,
                           .row = stack->row,
-                          .span_columns = stack->cell_columns};
+                          .span_columns = stack->cell_columns,
+                          .v_connect = (float)(WO_CONNECT_PX / rays->lens->px_per_dioptre)};
     for (int s = 0; s < stack->sheets; s++) {
         if (tile->bounds[s].v_min > tile->bounds[s].v_max)
             continue;

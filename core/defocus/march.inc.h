@@ -218,7 +218,7 @@ WO_SIMD way way_of(const wo_march_view *view, const wo_pencil *pencil, int n)
     w.dir = w.l.bm >= 0 ? -1 : 1;
     w.base = w.l.am * (float)w.dir;
     w.fall = fabsf(w.l.bm);
-    w.connect = WO_CONNECT_PX / fmaxf(w.fall, 1e-30f);
+    w.connect = wo_march_connect(view->v_connect, w.fall);
     w.first = INT_MAX;
     w.last = INT_MIN;
     for (int s = 0; s < view->sheets; s++) {

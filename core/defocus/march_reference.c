@@ -70,7 +70,8 @@ static void trace(const wo_march_view *view, int32_t x, int32_t y, const wo_penc
         v_far = fmin(v_far, (double)view->bounds[s].v_min);
     }
     const int dir = bm >= 0 ? -1 : 1;
-    const double limit = (double)WO_CONNECT_PX / fmax(fabs(bm), 1e-30);
+    const double rim = fmin(fabs(bm) * (double)view->v_connect / (double)WO_CONNECT_PX, 1);
+    const double limit = (double)view->v_connect * (5 - 2 * rim * rim) / 3;
     const int last = (int)lrint(am + bm * v_far);
     double light = 1;
     double before[WO_SHEETS_MAX];

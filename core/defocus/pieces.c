@@ -2,6 +2,8 @@
 /* Copyright the WideOpen authors */
 #include "defocus/pieces.h"
 
+#include "defocus/march.h"
+
 #include <math.h>
 
 /* Where the pixels of a new level come from. */
@@ -10,8 +12,8 @@ typedef struct cut_job {
     const wo_stack *stack;  /* level 0 */
     const wo_pieces *finer; /* the others */
     const wo_lens *lens;
-    float v_connect; /* the others */
-    size_t *first;   /* [rows] pieces with surfaces: counted, then summed up */
+    float v_connect;
+    size_t *first; /* [rows] pieces with surfaces: counted, then summed up */
 } cut_job;
 
 static int32_t clamp(int32_t x, int32_t low, int32_t high)
@@ -125,12 +127,13 @@ static bool is_solid(const cut_job *job, const float *plane, int at)
         return false;
     const wo_lens *lens = job->lens;
     const double here = (double)v[at];
+    const float connect = wo_march_connect(job->v_connect, 0);
     const bool sharp = lens && lens->reach(lens->self, here, here) <= WO_PIECE_SHARP_PX;
     for (int i = 0; i < 9; i++) {
         const int beside = at + (i / 3 - 1) * WO_PIECE_ROW + i % 3 - 1;
         if (isinf(v[beside]))
             return false;
-        if (sharp && !isnan(v[beside]) && !(alpha[beside] >= 1))
+        if (sharp && fabsf(v[beside] - v[at]) <= connect && !(alpha[beside] >= 1))
             return false;
     }
     return true;
@@ -242,7 +245,7 @@ static wo_status cut(const wo_context *context, cut_job *job, wo_error *error)
 }
 
 wo_status wo_pieces_create(const wo_context *context, const wo_stack *stack, const wo_lens *lens,
-                           wo_pieces *pieces, wo_error *error)
+                           float v_connect, wo_pieces *pieces, wo_error *error)
 {
     *pieces = (wo_pieces){.x1 = stack->area.x1,
                           .y1 = stack->area.y1,
@@ -251,7 +254,7 @@ wo_status wo_pieces_create(const wo_context *context, const wo_stack *stack, con
                           .sheets = stack->sheets};
     for (int s = 0; s < stack->sheets; s++)
         pieces->guessed[s] = stack->guessed[s];
-    cut_job job = {.to = pieces, .stack = stack, .lens = lens};
+    cut_job job = {.to = pieces, .stack = stack, .lens = lens, .v_connect = v_connect};
     const wo_status status = cut(context, &job, error);
     if (status != WO_OK)
         wo_pieces_destroy(context, pieces);

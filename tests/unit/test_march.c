@@ -78,7 +78,8 @@ static void field_make(field *f, rng *r, int sheets, double radius)
     f->view = (wo_march_view){.opaque = f->stack.opaque,
                               .run = f->stack.run,
                               .row = f->stack.row,
-                              .span_columns = f->stack.cell_columns};
+                              .span_columns = f->stack.cell_columns,
+                              .v_connect = (float)(WO_CONNECT_PX / f->lens.px_per_dioptre)};
     const int32_t grow = rng_unit(r) < 0.5 ? (int32_t)ceil(radius) + 3 : 64;
     for (int s = 0; s < f->stack.sheets; s++) {
         unsigned flags = 0;
