@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
 #include "blur_footage.h"
+#include "cases.h"
 #include "defocus/renderer.h"
 #include "footage.h"
 #include "near.h"
@@ -70,7 +71,9 @@ static void opaque_stays_opaque(void **state)
         /* The lamp hangs in front of nothing. */
         const bool opaque = all_opaque(&set->colour);
         assert_true(opaque || strcmp(options.scene, "lamp") == 0);
-        for (int method = 0; opaque && method < WO_METHOD_COUNT; method++) {
+        /* In turns where cases are few: every method meets every other scene. */
+        const int step = cases_of(1, 2);
+        for (int method = (int)i % step; opaque && method < WO_METHOD_COUNT; method += step) {
             render_opaque(set, method, 0);
             render_opaque(set, method, 4);
         }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
+#include "cases.h"
 #include "defocus/renderer.h"
 #include "near.h"
 #include "optics/lens_choice.h"
@@ -56,6 +57,7 @@ static scene two_layers(void)
     scene s;
     scene_init(&s, small);
     s.params.samples = 4;
+    s.params.max_radius = 24;
     scene_px_per_dioptre(&s, 14);
     scene_fill_layers(&s, 2);
     picture_fill(scene_clip(&s, WO_CLIP_MASK, 1), (const float[1]){1});

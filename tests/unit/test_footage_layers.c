@@ -148,11 +148,11 @@ static void patches_composite_to_the_pinhole(void **state)
 {
     (void)state;
     for (size_t i = 0; i < WO_COUNT(crowded); i++) {
-        wo_footage_options o = {.scene = crowded[i], .width = 128, .height = 72, .layers = 4};
+        wo_footage_options o = {.scene = crowded[i], .width = 64, .height = 36, .layers = 4};
         wo_footage *set = make_set(&o, 4);
         check_layers(set);
-        for (int32_t y = 0; y < 72; y++)
-            for (int32_t x = 0; x < 128; x++) {
+        for (int32_t y = 0; y < 36; y++)
+            for (int32_t x = 0; x < 64; x++) {
                 double rgba[4];
                 const float *const whole = wo_image_at(&set->colour, x, y);
                 composite(set, x, y, rgba);
@@ -171,25 +171,25 @@ static void hits_start_with_the_pinhole(void **state)
     (void)state;
     for (size_t i = 0; i < 3; i++) {
         wo_footage_options o = {.scene = crowded[i],
-                                .width = 96,
-                                .height = 54,
+                                .width = 64,
+                                .height = 36,
                                 .layers = 4,
-                                .samples = 16,
+                                .samples = 8,
                                 .peel = WO_FOOTAGE_HITS};
         wo_footage *set = make_set(&o, 4);
         check_layers(set);
         assert_true(same_bytes(&set->layer[0], &set->colour));
         assert_true(same_bytes(&set->layer_depth[0], &set->depth));
         int64_t deeper = 0;
-        for (int32_t y = 0; y < 54; y++)
-            for (int32_t x = 0; x < 96; x++)
+        for (int32_t y = 0; y < 36; y++)
+            for (int32_t x = 0; x < 64; x++)
                 for (int k = 1; k < 4; k++) {
                     const float front = *wo_image_at(&set->layer_depth[k - 1], x, y);
                     const float z = *wo_image_at(&set->layer_depth[k], x, y);
                     assert_true(z == 0 || z > front);
                     deeper += z > 0;
                 }
-        assert_true(deeper > 96 * 54 / 3);
+        assert_true(deeper > 64 * 36 / 3);
         o.layers = 1;
         o.peel = WO_FOOTAGE_PATCHES;
         wo_footage *one = make_set(&o, 4);
@@ -296,15 +296,15 @@ static void scenes_fill_the_picture(void **state)
     for (size_t i = 0; wo_footage_scene_at(i); i++) {
         const char *const name = wo_footage_scene_at(i)->name;
         wo_footage *set = make_set(&(wo_footage_options){.scene = name,
-                                                         .width = 112,
-                                                         .height = 63,
+                                                         .width = 64,
+                                                         .height = 36,
                                                          .samples = 8,
                                                          .reference_spp = 16,
                                                          .seed = 9},
                                    4);
         double light = 0;
-        for (int32_t y = 0; y < 63; y++)
-            for (int32_t x = 0; x < 112; x++) {
+        for (int32_t y = 0; y < 36; y++)
+            for (int32_t x = 0; x < 64; x++) {
                 const float *const seen[2] = {wo_image_at(&set->colour, x, y),
                                               wo_image_at(&set->reference, x, y)};
                 for (int k = 0; k < 2; k++)
