@@ -5,10 +5,10 @@
 
 #include <stdlib.h>
 
-/* How many cases of a kind a test goes through: all of them in an ordinary build; few of them, which
-   run through the same code, where each takes 3 to 30 times as long: with sanitizers, and with the
-   variable WO_TEST_FEW_CASES in the environment, which ./check sets for valgrind. Only for numbers
-   of alike cases; what a test demands of each is the same everywhere. */
+/* How many cases of a kind a test goes through: all of them in an ordinary build; few of them,
+   which run through the same code, where each takes 3 to 30 times as long: with sanitizers, and
+   with the variable WO_TEST_FEW_CASES in the environment, which ./check sets for valgrind. Only for
+   numbers of alike cases; what a test demands of each is the same everywhere. */
 static inline int cases_of(int all, int few)
 {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

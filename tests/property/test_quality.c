@@ -18,8 +18,8 @@ static scene blurred_scene(uint64_t seed)
     return s;
 }
 
-/* More rays, less error; and at any number of rays hybrid is nearer to the truth than rays alone, and
-   comes nearer with more. */
+/* More rays, less error; and at any number of rays hybrid is nearer to the truth than rays alone,
+   and comes nearer with more. */
 static void more_rays_less_error(void **state)
 {
     (void)state;
