@@ -59,7 +59,7 @@ static void opaque_stays_opaque(void **state)
 {
     (void)state;
     wo_error error = {WO_OK, ""};
-    for (size_t i = 0; wo_footage_scene_at(i); i++) {
+    for (size_t i = (size_t)cases_of(0, 1); wo_footage_scene_at(i); i += (size_t)cases_of(1, 2)) {
         const wo_footage_options options = {.scene = wo_footage_scene_at(i)->name,
                                             .width = 66,
                                             .height = 37,
@@ -71,9 +71,7 @@ static void opaque_stays_opaque(void **state)
         /* The lamp hangs in front of nothing. */
         const bool opaque = all_opaque(&set->colour);
         assert_true(opaque || strcmp(options.scene, "lamp") == 0);
-        /* In turns where cases are few: every method meets every other scene. */
-        const int step = cases_of(1, 2);
-        for (int method = (int)i % step; opaque && method < WO_METHOD_COUNT; method += step) {
+        for (int method = 0; opaque && method < WO_METHOD_COUNT; method++) {
             render_opaque(set, method, 0);
             render_opaque(set, method, 4);
         }

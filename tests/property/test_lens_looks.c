@@ -33,7 +33,7 @@ static scene dot_scene(const look *l)
     s.params.f_stop = l->n;
     s.params.best_focus = 0;
     s.params.method = WO_METHOD_RAYS; /* the lens is looked at, not the smoothing of hybrid */
-    s.params.samples = cases_of(2048, 512);
+    s.params.samples = 2048;
     const double vf = 2 * fabs(l->dv);
     s.params.focus_distance = 1 / vf;
     s.params.sensor_width = SIDE * l->focal * l->focal * 1e-3 * fabs(l->dv) / (2 * l->n * l->px);
