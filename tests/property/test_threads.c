@@ -11,8 +11,8 @@
 #include <string.h>
 
 /* Every method on several threads: those of the runner inside one render, those of a host that asks
-   for several windows of one plan at once, and one that says stop. Small enough for ThreadSanitizer;
-   how it runs does not depend on the size. */
+   for several windows of one plan at once, and one that says stop. Small enough for
+   ThreadSanitizer; how it runs does not depend on the size. */
 
 static const wo_rect frame = {-7, 3, 73, 43};
 
