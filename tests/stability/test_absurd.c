@@ -87,6 +87,7 @@ static scene start(uint64_t seed)
     scene_fill_layers(&s, seed);
     s.params.samples = 9;
     s.params.max_rays = 40;
+    s.params.max_radius = 40;
     return s;
 }
 
