@@ -14,6 +14,23 @@ float wo_shown(float a, float b)
     return (wo_display(mean + reach) - wo_display(mean - reach)) / (2 * reach);
 }
 
+float wo_tile_noise(const wo_tile_work *work, const wo_tile_sums *sums, int32_t row, int run_index,
+                    int i)
+{
+    if (sums->rays <= 1)
+        return 0;
+    float c[2][4];
+    float noise = 0;
+    for (int h = 0; h < 2; h++)
+        if (!wo_tile_work_pixel(work, &sums->halves[row][run_index][h], row, run_index, i, c[h]))
+            return 0;
+    for (int k = 0; k < 3; k++) {
+        const float d = 0.5f * (c[1][k] - c[0][k]) * wo_shown(c[0][k], c[1][k]);
+        noise += d * d * (1.0f / 3);
+    }
+    return noise;
+}
+
 static void scale_sums(wo_march_sums *sums, float scale)
 {
     for (int i = 0; i < WO_LANES; i++) {
@@ -70,8 +87,12 @@ bool wo_tile_sample(const wo_defocus *scene, wo_tile_work *work, wo_tile_error *
                     wo_tile_sums *sums, wo_report *report)
 {
     memset(sums, 0, sizeof *sums);
-    if (!scene->quality.adaptive)
-        return trace(work, scene->lens, 0, 1, sums, report);
+    if (!scene->quality.adaptive) {
+        if (!trace(work, scene->lens, 0, 1, sums, report))
+            return false;
+        error(user, work, sums);
+        return true;
+    }
     int level = 0;
     for (unsigned pass = 0;; pass++) {
         const wo_lens *lens = &scene->levels[level];
@@ -79,10 +100,8 @@ bool wo_tile_sample(const wo_defocus *scene, wo_tile_work *work, wo_tile_error *
             pow((double)lens->count / scene->levels[0].count, WO_LATTICE_POWER - 1);
         if (!trace(work, lens, pass, scale, sums, report))
             return false;
-        if (wo_ray_tile_straight(work->tile))
-            return true;
         const double e = WO_ERROR_SIGMAS * WO_HALVES_TO_ERROR * sqrt(error(user, work, sums));
-        if (e <= scene->quality.target_error)
+        if (e <= scene->quality.target_error || wo_ray_tile_straight(work->tile))
             return true;
         const double too_large =
             scene->quality.target_error > 0 ? e / scene->quality.target_error : INFINITY;

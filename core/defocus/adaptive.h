@@ -23,7 +23,12 @@ typedef struct wo_tile_sums {
     double scale; /* light of one ray: the sum of its weights over passes */
 } wo_tile_sums;
 
-/* Mean square of half the difference of the halves over the tile, in the displayed value. */
+/* Square of half the difference of the halves at a pixel, in the displayed value. */
+float wo_tile_noise(const wo_tile_work *work, const wo_tile_sums *sums, int32_t row, int run_index,
+                    int i);
+
+/* Called after every pass: the mean over the tile of wo_tile_noise, or of what the method leaves of
+   it. */
 typedef double wo_tile_error(void *user, const wo_tile_work *work, const wo_tile_sums *sums);
 
 /* Samples a tile that is not empty. report: rays and steps. false when stopped. */

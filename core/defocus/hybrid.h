@@ -5,15 +5,24 @@
 
 #include "defocus/renderer.h"
 
-/* Lens rays where they are needed, smoothing where it is right (after Tan et al. 2022 as told by
-   Marsicano 2024, chapter 5, with what goes wrong there mended).
+/* Lens rays where they are needed, smoothing and filtering where that is right (after Tan et al.
+   2022 as told by Marsicano 2024, chapter 5, with what goes wrong there mended). In two steps.
 
-   Few rays a pixel find exactly what is in focus, and leave noise in what is far out of it: how
-   much of a near surface covers the pixel, and its colour. But the picture of such a surface is
-   smooth by the size of its blur. So the light of the rays is kept apart by where it came from: far
-   in front of the focus, about it, far behind. The picture in front is smoothed by a fraction of
-   its own blur, its coverage too; what is behind keeps its detail and fills exactly the light that
-   is left. The parts are put together once, at the end: no dark edges, nothing counted twice. */
+   Smoothing. Few rays a pixel find exactly what is in focus, and leave noise in what is far out of
+   it: how much of a near surface covers the pixel, and its colour. But the picture of such a
+   surface is smooth by the size of its blur. So the light of the rays is kept apart by where it
+   came from: far in front of the focus, about it, far behind. The picture in front is smoothed by
+   a fraction of its own blur, its coverage too; what is behind keeps its detail and fills exactly
+   the light that is left. The parts are put together once, at the end: no dark edges, nothing
+   counted twice.
+
+   Leaning. The filter (filter.h) has no noise but is wrong where surfaces hide each other; rays
+   are right everywhere but noisy. Their difference is noise, and what the filter gets wrong. The
+   two halves of the rays say how large noise is in each cell of 8 x 8 px, so it is known which part
+   of the difference is more than noise (Wiener's filter): so much of it is added to the filtered
+   picture, and of its mean over the cell nearly all. Where the filter is right the picture is its;
+   where it is wrong it is that of the rays; and with more and more rays it becomes that everywhere,
+   whatever the filter did. */
 
 /* Blur of more px of radius than this is kept apart. */
 #define WO_HYBRID_APART_PX 3.0
@@ -26,13 +35,19 @@ enum {
     WO_HYBRID_LEFT = WO_HYBRID_REST + 4,           /* light that nothing stopped */
     WO_HYBRID_GUESSED,
     WO_HYBRID_NOISE, /* near, far, rest: square of half the difference between the halves of the
-                        rays, in the displayed value */
-    WO_HYBRID_JITTER = WO_HYBRID_NOISE + 3, /* the same of near and far together, in square roots of
-                                               light, which do not end at white */
+                        rays, in roots of light (wo_hybrid_scale) */
+    WO_HYBRID_JITTER = WO_HYBRID_NOISE + 3, /* the same of near and far together */
+    WO_HYBRID_OPEN,                         /* of all ... */
+    WO_HYBRID_SHOWN,                        /* ... and of the displayed value */
     WO_HYBRID_PLANES
 };
 
 enum { WO_HYBRID_CELL = 8, WO_HYBRID_TAPS_MAX = 64, WO_HYBRID_KERNELS = 33 };
+
+/* Roots of light: what is decided in them is right when the picture is made darker, too; the
+   displayed value ends at white. A difference d of light about this much light is d times this
+   scale. */
+float wo_hybrid_scale(float light);
 
 /* A kernel over whole pixels. gain: how much of the variance it leaves. */
 typedef struct wo_hybrid_kernel {
@@ -44,8 +59,8 @@ typedef struct wo_hybrid_kernel {
 
 /* Largest offset of a tap, px. */
 #define WO_HYBRID_REACH 8
-/* px beyond the window that must be traced: taps, and the cells around. */
-#define WO_HYBRID_MARGIN (WO_HYBRID_REACH + 2 * WO_HYBRID_CELL)
+/* px beyond a cell that must be traced to smooth it: taps, and the cells around. */
+#define WO_HYBRID_AROUND (WO_HYBRID_REACH + 2 * WO_HYBRID_CELL)
 
 /* Kernels by radius in quarters of a px, of equal weights: [0] is the pixel itself. */
 void wo_hybrid_kernels(wo_hybrid_kernel kernels[WO_HYBRID_KERNELS]);
@@ -53,15 +68,15 @@ void wo_hybrid_kernels(wo_hybrid_kernel kernels[WO_HYBRID_KERNELS]);
 /* Of a cell of 8 x 8 px and those around it. */
 typedef struct wo_hybrid_cell {
     uint8_t near, far; /* kernels */
-    float noise[3];    /* means */
+    float noise[3];    /* means of WO_HYBRID_NOISE, for all rays */
+    float shown;       /* the displayed value has so many times the noise */
     float jitter;      /* of this cell alone: variance that smoothing may take away */
 } wo_hybrid_cell;
 
 typedef struct wo_hybrid {
     const wo_defocus *scene;
-    const wo_frame *frame;
-    wo_rect tiles; /* those of the frame, and its margin */
-    wo_rect area;  /* of these tiles, px */
+    wo_rect tiles; /* those that are traced */
+    wo_rect area;  /* the same in px */
     ptrdiff_t width;
     float *memory;
     /* Coverage is one plane for all colours if the lens does not part them. */
@@ -88,8 +103,34 @@ bool wo_hybrid_trace(wo_hybrid *hybrid, int32_t tx, int32_t ty, wo_report *part)
 /* Chooses the kernels of a row of cells from the planes. */
 void wo_hybrid_choose(wo_hybrid *hybrid, int32_t row);
 
-/* Puts the parts of one tile together. */
+/* Puts the parts of one tile together. noise: mean square of the expected error of each of its
+   cells, in roots of light; shown: the displayed value has so many times as much. */
+typedef struct wo_hybrid_noise {
+    float noise[WO_TILE_WIDTH / WO_HYBRID_CELL], shown[WO_TILE_WIDTH / WO_HYBRID_CELL];
+} wo_hybrid_noise;
 void wo_hybrid_join(const wo_hybrid *hybrid, int32_t tx, int32_t ty, wo_tile_pixels *pixels,
-                    wo_tile_facts *facts);
+                    wo_tile_facts *facts, wo_hybrid_noise *noise);
+
+/* How a cell leans on the filter. */
+typedef struct wo_hybrid_lean {
+    bool known;     /* false: the picture of the rays stands as it is */
+    float shift[4]; /* mean difference of rays and filter, times wo_hybrid_scale */
+    float keep;     /* part of the difference's detail that is not noise */
+    float error;    /* square of the expected error */
+} wo_hybrid_lean;
+
+/* rays, filtered: rows of the two pictures of one cell. noise: the expected square of the error of
+   the rays' picture, mean of the cell, in roots of light, as the error will be. Differences are
+   scaled by what the filter shows, so that a lamp does not show in the mean of its cell, and noise
+   does not pull the mean down. */
+void wo_hybrid_lean_on(float (*const rays[WO_HYBRID_CELL])[4],
+                       float (*const filtered[WO_HYBRID_CELL])[4], float noise,
+                       wo_hybrid_lean *lean);
+
+/* One pixel, of which rays and filtered are the two pictures. around[y][x]: its cell in the middle
+   and those around; NULL = there is none. (x, y): place of the pixel in the cell, px. Returns which
+   part of the detail came from the rays. */
+float wo_hybrid_mix(const wo_hybrid_lean *const around[3][3], int x, int y, const float rays[4],
+                    const float filtered[4], float out[4]);
 
 #endif

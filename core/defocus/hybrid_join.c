@@ -11,6 +11,14 @@
 #define SMOOTH_LEAVES 2.0f
 #define SMOOTH_MOVES  0.02f
 
+/* Below this light is black. */
+#define DARK 0.02f
+
+float wo_hybrid_scale(float light)
+{
+    return 0.5f / sqrtf(fmaxf(light, 0) + DARK);
+}
+
 void wo_hybrid_kernels(wo_hybrid_kernel kernels[WO_HYBRID_KERNELS])
 {
     for (int q = 0; q < WO_HYBRID_KERNELS; q++) {
@@ -100,7 +108,9 @@ void wo_hybrid_choose(wo_hybrid *h, int32_t row)
                                WO_HYBRID_FAR + WO_PART_BLUR,
                                WO_HYBRID_NOISE + 0,
                                WO_HYBRID_NOISE + 1,
-                               WO_HYBRID_NOISE + 2};
+                               WO_HYBRID_NOISE + 2,
+                               WO_HYBRID_OPEN,
+                               WO_HYBRID_SHOWN};
     enum { SUMS = sizeof sums / sizeof sums[0] };
     for (int32_t column = 0; column < h->columns; column++) {
         double sum[SUMS] = {0};
@@ -132,7 +142,9 @@ void wo_hybrid_choose(wo_hybrid *h, int32_t row)
         cell->jitter = (float)(WO_HALVES_TO_ERROR * WO_HALVES_TO_ERROR * own /
                                (WO_HYBRID_CELL * WO_HYBRID_CELL));
         for (int n = 0; n < 3; n++)
-            cell->noise[n] = (float)(sum[4 + n] / (cells * WO_HYBRID_CELL * WO_HYBRID_CELL));
+            cell->noise[n] = (float)(WO_HALVES_TO_ERROR * WO_HALVES_TO_ERROR * sum[4 + n] /
+                                     (cells * WO_HYBRID_CELL * WO_HYBRID_CELL));
+        cell->shown = sum[7] > 0 ? (float)(sum[8] / sum[7]) : 1;
     }
 }
 
@@ -283,11 +295,6 @@ static void add_up_smooth(const wo_hybrid *h, const wo_hybrid_cell *cell, int32_
     }
 }
 
-static float root(float x)
-{
-    return copysignf(sqrtf(fabsf(x)), x);
-}
-
 /* The estimate of noise in one cell may be too small by this. */
 #define JITTER_TRUST 4.0f
 
@@ -299,7 +306,7 @@ static float part_of_noise(const wo_hybrid_cell *cell, colours own, colours smoo
     for (int y = 0; y < WO_HYBRID_CELL; y++) {
         for (int x = 0; x < WO_HYBRID_CELL; x++) {
             for (int k = 0; k < 3; k++) {
-                const float d = root(own[y][x][k]) - root(smoothed[y][x][k]);
+                const float d = (own[y][x][k] - smoothed[y][x][k]) * wo_hybrid_scale(own[y][x][k]);
                 moved += d * d;
             }
         }
@@ -310,7 +317,7 @@ static float part_of_noise(const wo_hybrid_cell *cell, colours own, colours smoo
 }
 
 void wo_hybrid_join(const wo_hybrid *h, int32_t tx, int32_t ty, wo_tile_pixels *pixels,
-                    wo_tile_facts *facts)
+                    wo_tile_facts *facts, wo_hybrid_noise *noise)
 {
     const size_t tile =
         (size_t)(ty - h->tiles.y1) * (size_t)wo_rect_width(h->tiles) + (size_t)(tx - h->tiles.x1);
@@ -329,7 +336,9 @@ void wo_hybrid_join(const wo_hybrid *h, int32_t tx, int32_t ty, wo_tile_pixels *
         }
         const float near = 1 - part * (1 - h->kernels[cell->near].gain);
         const float far = 1 - part * (1 - h->kernels[cell->far].gain);
-        const float noise = cell->noise[0] * near + cell->noise[1] * far + cell->noise[2];
+        noise->noise[x0 / WO_HYBRID_CELL] =
+            cell->noise[0] * near + cell->noise[1] * far + cell->noise[2];
+        noise->shown[x0 / WO_HYBRID_CELL] = cell->shown;
         for (int y = 0; y < WO_HYBRID_CELL; y++) {
             for (int x = 0; x < WO_HYBRID_CELL; x++) {
                 float *const c = pixels->c[y][x0 + x];
@@ -338,7 +347,6 @@ void wo_hybrid_join(const wo_hybrid *h, int32_t tx, int32_t ty, wo_tile_pixels *
                                     : own[y][x][k];
                 pixels->guessed[y][x0 + x] =
                     h->plane[WO_HYBRID_GUESSED][(low + y) * h->width + left + x];
-                facts->error[y][x0 + x] = (float)WO_HALVES_TO_ERROR * sqrtf(noise);
                 const ptrdiff_t at = (low + y) * h->width + left + x;
                 facts->rays[y][x0 + x] = h->rays[tile];
                 facts->mask[y][x0 + x] *=

@@ -6,7 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Near, far, rest, jitter. */
+/* Near, far, rest, jitter, open, shown. */
+enum { JITTER = WO_HYBRID_JITTER - WO_HYBRID_NOISE, OPEN, SHOWN };
 enum { NOISES = WO_HYBRID_PLANES - WO_HYBRID_NOISE };
 
 /* One pixel of sums, each part divided by the light of its colour. */
@@ -64,19 +65,18 @@ static void noise_of(const split *all, const split *a, const split *b, float noi
 {
     for (int k = 0; k < 3; k++) {
         const int a_k = WO_PART_COVERAGE + k;
-        const float open = 1 - all->near[a_k];
+        const float left = 1 - all->near[a_k];
         const float far_a = all->far[a_k];
-        const float behind = open > 1e-3f ? (all->c[k] - all->near[k]) / open : all->near[k];
+        const float behind = left > 1e-3f ? (all->c[k] - all->near[k]) / left : all->near[k];
         const float beyond = far_a > 1e-3f ? all->far[k] / far_a : 0;
         const float near = a->near[k] - b->near[k] - behind * (a->near[a_k] - b->near[a_k]);
         const float far = a->far[k] - b->far[k] - beyond * (a->far[a_k] - b->far[a_k]);
-        const float rest = a->c[k] - b->c[k] - near - far;
-        const float d[3] = {near, far, rest};
-        const float root = 0.25f * (near + far) / sqrtf(fmaxf(fabsf(all->c[k]), 1e-4f));
-        noise[3] += root * root * (1.0f / 3);
-        const float slope = wo_shown(a->c[k], b->c[k]);
-        for (int n = 0; n < 3; n++) {
-            const float e = 0.5f * slope * d[n];
+        const float scale = 0.5f * wo_hybrid_scale(all->c[k]);
+        const float shown = 0.5f * wo_shown(a->c[k], b->c[k]);
+        const float open = a->c[k] - b->c[k];
+        const float d[6] = {near, far, open - near - far, near + far, open, open};
+        for (int n = 0; n < NOISES; n++) {
+            const float e = (n == SHOWN ? shown : scale) * d[n];
             noise[n] += e * e * (1.0f / 3);
         }
     }
@@ -120,32 +120,41 @@ static void look_at(const wo_tile_work *work, const wo_tile_sums *sums, int32_t 
         noise_of(all, &half[0], &half[1], noise);
 }
 
+/* A tile, looked at. */
+typedef struct looked {
+    const wo_hybrid *hybrid;
+    split all[WO_TILE_HEIGHT][WO_TILE_WIDTH];
+    float noise[WO_TILE_HEIGHT][WO_TILE_WIDTH][NOISES];
+} looked;
+
 /* What smoothing will leave of the noise, as far as this tile can tell. */
 static double error_of(void *user, const wo_tile_work *work, const wo_tile_sums *sums)
 {
-    const wo_hybrid *h = user;
+    looked *const seen = user;
+    const wo_hybrid *h = seen->hybrid;
     double total = 0;
     for (int x0 = 0; x0 < WO_TILE_WIDTH; x0 += WO_HYBRID_CELL) {
-        double noise[3] = {0};
+        double noise[NOISES] = {0};
         double near[2] = {0};
         double far[2] = {0};
         for (int32_t row = 0; row < WO_TILE_HEIGHT; row++) {
             for (int x = x0; x < x0 + WO_HYBRID_CELL; x++) {
-                split s;
-                float one[NOISES];
-                look_at(work, sums, row, x % WO_PHASES, x / WO_PHASES, &s, one);
-                for (int n = 0; n < 3; n++)
+                split *const s = &seen->all[row][x];
+                float *const one = seen->noise[row][x];
+                look_at(work, sums, row, x % WO_PHASES, x / WO_PHASES, s, one);
+                for (int n = 0; n < NOISES; n++)
                     noise[n] += (double)one[n];
-                near[0] += (double)mean_coverage(s.near);
-                near[1] += (double)s.near[WO_PART_BLUR];
-                far[0] += (double)mean_coverage(s.far);
-                far[1] += (double)s.far[WO_PART_BLUR];
+                near[0] += (double)mean_coverage(s->near);
+                near[1] += (double)s->near[WO_PART_BLUR];
+                far[0] += (double)mean_coverage(s->far);
+                far[1] += (double)s->far[WO_PART_BLUR];
             }
         }
         const int near_kernel = wo_hybrid_kernel_for(h, true, sums->rays, near[0], near[1]);
         const int far_kernel = wo_hybrid_kernel_for(h, false, sums->rays, far[0], far[1]);
-        total += noise[0] * (double)h->kernels[near_kernel].gain +
-                 noise[1] * (double)h->kernels[far_kernel].gain + noise[2];
+        const double shown = noise[OPEN] > 0 ? noise[SHOWN] / noise[OPEN] : 1;
+        total += shown * (noise[0] * (double)h->kernels[near_kernel].gain +
+                          noise[1] * (double)h->kernels[far_kernel].gain + noise[2]);
     }
     return total / (WO_TILE_WIDTH * WO_TILE_HEIGHT);
 }
@@ -167,7 +176,9 @@ bool wo_hybrid_trace(wo_hybrid *h, int32_t tx, int32_t ty, wo_report *part)
                 h->plane[WO_HYBRID_LEFT][origin + row * h->width + x] = 1;
         return true;
     }
-    if (!wo_tile_sample(scene, &work, error_of, h, &sums, part))
+    looked seen;
+    seen.hybrid = h;
+    if (!wo_tile_sample(scene, &work, error_of, &seen, &sums, part))
         return false;
     h->rays[tile] = (float)sums.rays;
     for (int32_t row = 0; row < WO_TILE_HEIGHT; row++) {
@@ -175,13 +186,10 @@ bool wo_hybrid_trace(wo_hybrid *h, int32_t tx, int32_t ty, wo_report *part)
             const int run_index = x % WO_PHASES;
             const int i = x / WO_PHASES;
             const wo_march_sums *const halves = sums.halves[row][run_index];
-            split all;
-            float noise[NOISES];
-            look_at(&work, &sums, row, run_index, i, &all, noise);
-            put(h, origin + row * h->width + x, &all,
+            put(h, origin + row * h->width + x, &seen.all[row][x],
                 fminf(fmaxf((halves[0].guessed[i] + halves[1].guessed[i]) / (float)sums.scale, 0),
                       1),
-                noise);
+                seen.noise[row][x]);
         }
     }
     return true;

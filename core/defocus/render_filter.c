@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
+#include "defocus/filter_frame.h"
 #include "defocus/filter_scene.h"
 #include "defocus/renderer.h"
 
@@ -34,7 +35,7 @@ typedef struct filter_job {
     const wo_filter_kernels *kernels;
     const wo_frame *frame;
     wo_frame raw; /* before the median: rays, and in error the part of the light from taps */
-    uint8_t *skip;
+    bool with_rays;
 } filter_job;
 
 /* One side of the focus in the footprint of a tile. */
@@ -294,6 +295,22 @@ static bool unwanted(const wo_rect *window, const wo_rect *tile, int32_t row, in
     return last < window->x1 || first >= window->x2;
 }
 
+/* NULL = the tile has no blur. */
+static const wo_filter_shape *shape_of(const filter_job *job, int32_t tx, int32_t ty)
+{
+    const wo_ray_tile *tile = wo_lens_rays_at(job->scene->rays, tx, ty);
+    if (tile->class == WO_TILE_EMPTY || wo_ray_tile_straight(tile))
+        return NULL;
+    return wo_filter_shape_at(&job->filter, tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT);
+}
+
+/* A tile that is left out, because the filter cannot do it and rays are not asked for. */
+static bool is_without(const filter_job *job, int32_t tx, int32_t ty)
+{
+    const wo_filter_shape *shape = shape_of(job, tx, ty);
+    return !job->with_rays && shape && shape->rest > REST_MAX;
+}
+
 static bool gather_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_tile_pixels *pixels,
                         wo_tile_facts *facts, wo_report *part)
 {
@@ -302,10 +319,12 @@ static bool gather_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_
     const wo_defocus *scene = job->scene;
     const wo_ray_tile *tile = wo_lens_rays_at(scene->rays, tx, ty);
     memset(facts, 0, sizeof *facts);
-    const bool plain = tile->class == WO_TILE_EMPTY || wo_ray_tile_straight(tile);
-    const wo_filter_shape *shape =
-        plain ? NULL : wo_filter_shape_at(&job->filter, tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT);
-    if (plain || shape->rest > REST_MAX) {
+    const wo_filter_shape *shape = shape_of(job, tx, ty);
+    if (is_without(job, tx, ty)) {
+        memset(pixels, 0, sizeof *pixels);
+        return !wo_aborted(scene->context);
+    }
+    if (!shape || shape->rest > REST_MAX) {
         const float rays = tile->class == WO_TILE_EMPTY ? 0
                            : wo_ray_tile_straight(tile) ? 1
                                                         : (float)scene->lens->count;
@@ -370,6 +389,7 @@ static bool finish_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_
     const wo_rect r = wo_rect_intersect(
         (wo_rect){left, low, left + WO_TILE_WIDTH, low + WO_TILE_HEIGHT}, job->frame->window);
     const size_t w = (size_t)wo_rect_width(raw->window);
+    const float without = is_without(job, tx, ty) ? 1 : 0;
     around from = {0};
     float middle[4][WO_TILE_WIDTH];
     if (wo_aborted(job->scene->context))
@@ -394,30 +414,12 @@ static bool finish_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_
             }
             pixels->guessed[j][i] = raw->guessed[at];
             facts->rays[j][i] = raw->rays[at];
+            facts->mask[j][i] = without;
             facts->error[j][i] = raw->rays[at] <= 1 ? 0 : NAN;
         }
     }
     wo_tile_highlights(job->scene, tx, ty, pixels, part);
     return true;
-}
-
-/* A raw tile is not wanted when no tile that the median reads it for is. */
-static void find_skip(filter_job *job)
-{
-    const wo_rect to = job->raw.tiles;
-    const wo_rect from = job->frame->tiles;
-    size_t i = 0;
-    for (int32_t ty = to.y1; ty < to.y2; ty++) {
-        for (int32_t tx = to.x1; tx < to.x2; tx++) {
-            const wo_rect r = wo_rect_intersect((wo_rect){tx - 1, ty - 1, tx + 2, ty + 2}, from);
-            bool skip = true;
-            for (int32_t y = r.y1; y < r.y2; y++)
-                for (int32_t x = r.x1; x < r.x2; x++)
-                    skip &= job->frame->skip[(size_t)(y - from.y1) * (size_t)wo_rect_width(from) +
-                                             (size_t)(x - from.x1)] != 0;
-            job->skip[i++] = skip;
-        }
-    }
 }
 
 /* What the taps of all tiles of the raw frame can look at. */
@@ -438,28 +440,6 @@ static wo_rect seen_area(const filter_job *job)
     return wo_rect_intersect(area, job->scene->stack->area);
 }
 
-static wo_status make_raw(filter_job *job, wo_error *error)
-{
-    const wo_context *context = job->scene->context;
-    wo_frame *raw = &job->raw;
-    raw->window = wo_rect_grow(job->frame->window, 1, 1);
-    raw->tiles = wo_tiles_of(raw->window);
-    const size_t n = (size_t)wo_rect_width(raw->window) * (size_t)wo_rect_height(raw->window);
-    if (!(raw->c = wo_new_large(context, error, n, sizeof *raw->c)) ||
-        !(raw->guessed = wo_new_large(context, error, n, sizeof *raw->guessed)) ||
-        !(raw->rays = wo_new_large(context, error, n, sizeof *raw->rays)) ||
-        !(raw->error = wo_new_large(context, error, n, sizeof *raw->error)))
-        return WO_ERR_NOMEM;
-    if (!job->frame->skip)
-        return WO_OK;
-    const size_t tiles = (size_t)wo_rect_width(raw->tiles) * (size_t)wo_rect_height(raw->tiles);
-    if (!(job->skip = wo_new(context, error, tiles, sizeof *job->skip)))
-        return WO_ERR_NOMEM;
-    find_skip(job);
-    raw->skip = job->skip;
-    return WO_OK;
-}
-
 /* No error is estimated, so adaptive sampling has no meaning: as many taps as there are samples, or
    the next smaller lattice. */
 static const wo_lens *lens_of(const wo_defocus *scene)
@@ -473,15 +453,18 @@ static const wo_lens *lens_of(const wo_defocus *scene)
     return lens;
 }
 
-static wo_status render(const wo_defocus *scene, const wo_frame *frame, wo_report *report,
-                        wo_error *error)
+wo_status wo_filter_frame(const wo_defocus *scene, const wo_frame *frame, bool with_rays,
+                          wo_report *report, wo_error *error)
 {
     const wo_context *context = scene->context;
     filter_job job = {.scene = scene,
                       .lens = lens_of(scene),
                       .frame = frame,
+                      .with_rays = with_rays,
                       .kernels = wo_filter_choose(wo_cpu_detect(context->cpu))};
-    wo_status status = make_raw(&job, error);
+    wo_status status =
+        wo_frame_around(context, frame, wo_rect_grow(frame->window, 1, 1), 1,
+                        WO_FRAME_PIXELS | WO_FRAME_RAYS | WO_FRAME_ERROR, &job.raw, error);
     if (status == WO_OK)
         status = wo_filter_scene_create(context, scene->stack, job.lens, seen_area(&job),
                                         &job.filter, error);
@@ -490,12 +473,14 @@ static wo_status render(const wo_defocus *scene, const wo_frame *frame, wo_repor
     if (status == WO_OK)
         status = wo_frame_tiles(scene, frame, 0.9, 1, finish_tile, &job, report, error);
     wo_filter_scene_destroy(context, &job.filter);
-    wo_delete(context, job.raw.c);
-    wo_delete(context, job.raw.guessed);
-    wo_delete(context, job.raw.rays);
-    wo_delete(context, job.raw.error);
-    wo_delete(context, job.skip);
+    wo_frame_destroy(context, &job.raw);
     return status;
+}
+
+static wo_status render(const wo_defocus *scene, const wo_frame *frame, wo_report *report,
+                        wo_error *error)
+{
+    return wo_filter_frame(scene, frame, true, report, error);
 }
 
 const wo_renderer wo_render_filter = {

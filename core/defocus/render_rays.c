@@ -15,22 +15,6 @@ static wo_march_sums whole(const wo_tile_sums *sums, int32_t row, int run_index)
     return all;
 }
 
-/* Square of half the difference of the halves at a pixel, displayed. */
-static float noise_of(const wo_tile_work *work, const wo_tile_sums *sums, int32_t row,
-                      int run_index, int i)
-{
-    float c[2][4];
-    float noise = 0;
-    for (int h = 0; h < 2; h++)
-        if (!wo_tile_work_pixel(work, &sums->halves[row][run_index][h], row, run_index, i, c[h]))
-            return 0;
-    for (int k = 0; k < 3; k++) {
-        const float d = 0.5f * (c[1][k] - c[0][k]) * wo_shown(c[0][k], c[1][k]);
-        noise += d * d * (1.0f / 3);
-    }
-    return noise;
-}
-
 typedef struct noise_map {
     float noise[WO_TILE_HEIGHT][WO_TILE_WIDTH];
 } noise_map;
@@ -41,7 +25,7 @@ static double error_of(void *user, const wo_tile_work *work, const wo_tile_sums 
     double sum = 0;
     for (int32_t row = 0; row < WO_TILE_HEIGHT; row++) {
         for (int x = 0; x < WO_TILE_WIDTH; x++) {
-            map->noise[row][x] = noise_of(work, sums, row, x % WO_PHASES, x / WO_PHASES);
+            map->noise[row][x] = wo_tile_noise(work, sums, row, x % WO_PHASES, x / WO_PHASES);
             sum += (double)map->noise[row][x];
         }
     }
@@ -93,10 +77,7 @@ static bool rays_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_ti
             }
         }
     }
-    if (!wo_ray_tile_straight(work.tile)) {
-        error_of(&map, &work, &sums);
-        put_errors(&map, facts);
-    }
+    put_errors(&map, facts);
     wo_tile_highlights(scene, tx, ty, pixels, part);
     return true;
 }

@@ -26,6 +26,64 @@ float wo_display(float x)
     return x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1 / 2.4f) - 0.055f;
 }
 
+/* Is a tile, or one that it reaches, looked at by anybody? */
+static bool wanted(const wo_frame *frame, int32_t tx, int32_t ty, int32_t reach)
+{
+    const wo_rect tile = {tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT, (tx + 1) * WO_TILE_WIDTH,
+                          (ty + 1) * WO_TILE_HEIGHT};
+    const wo_rect r =
+        wo_rect_intersect(wo_tiles_of(wo_rect_grow(tile, reach, reach)), frame->tiles);
+    for (int32_t y = r.y1; y < r.y2; y++)
+        for (int32_t x = r.x1; x < r.x2; x++)
+            if (!frame->skip[(size_t)(y - frame->tiles.y1) * (size_t)wo_rect_width(frame->tiles) +
+                             (size_t)(x - frame->tiles.x1)])
+                return true;
+    return false;
+}
+
+wo_status wo_frame_around(const wo_context *context, const wo_frame *frame, wo_rect window,
+                          int32_t reach, unsigned planes, wo_frame *around, wo_error *error)
+{
+    *around = (wo_frame){.window = window, .tiles = wo_tiles_of(window)};
+    const size_t n = (size_t)wo_rect_width(window) * (size_t)wo_rect_height(window);
+    const struct {
+        unsigned plane;
+        float **memory;
+    } floats[] = {{WO_FRAME_PIXELS, &around->guessed},
+                  {WO_FRAME_RAYS, &around->rays},
+                  {WO_FRAME_MASK, &around->mask},
+                  {WO_FRAME_ERROR, &around->error}};
+    if (planes & WO_FRAME_PIXELS &&
+        !(around->c = wo_new_large(context, error, n, sizeof *around->c)))
+        return WO_ERR_NOMEM;
+    for (size_t i = 0; i < WO_COUNT(floats); i++)
+        if (planes & floats[i].plane &&
+            !(*floats[i].memory = wo_new_large(context, error, n, sizeof(float))))
+            return WO_ERR_NOMEM;
+    if (!frame->skip)
+        return WO_OK;
+    const wo_rect t = around->tiles;
+    around->skip = wo_new(context, error, (size_t)wo_rect_width(t) * (size_t)wo_rect_height(t), 1);
+    if (!around->skip)
+        return WO_ERR_NOMEM;
+    size_t i = 0;
+    for (int32_t ty = t.y1; ty < t.y2; ty++)
+        for (int32_t tx = t.x1; tx < t.x2; tx++)
+            around->skip[i++] = !wanted(frame, tx, ty, reach);
+    return WO_OK;
+}
+
+void wo_frame_destroy(const wo_context *context, wo_frame *around)
+{
+    wo_delete(context, around->c);
+    wo_delete(context, around->guessed);
+    wo_delete(context, around->rays);
+    wo_delete(context, around->mask);
+    wo_delete(context, around->error);
+    wo_delete(context, around->skip);
+    *around = (wo_frame){0};
+}
+
 typedef struct frame_job {
     const wo_defocus *scene;
     const wo_frame *frame;
@@ -50,8 +108,10 @@ static void put_tile(const wo_frame *frame, int32_t tx, int32_t ty, const wo_til
         const size_t at = (size_t)(y - frame->window.y1) * w + (size_t)(r.x1 - frame->window.x1);
         const int32_t row = y - low;
         const int32_t x = r.x1 - left;
-        memcpy(frame->c + at, pixels->c[row] + x, n * sizeof frame->c[0]);
-        memcpy(frame->guessed + at, pixels->guessed[row] + x, n * sizeof(float));
+        if (frame->c) {
+            memcpy(frame->c + at, pixels->c[row] + x, n * sizeof frame->c[0]);
+            memcpy(frame->guessed + at, pixels->guessed[row] + x, n * sizeof(float));
+        }
         if (frame->rays)
             memcpy(frame->rays + at, facts->rays[row] + x, n * sizeof(float));
         if (frame->mask)

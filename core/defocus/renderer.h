@@ -24,6 +24,7 @@ typedef struct wo_defocus {
     const wo_lens *lens;   /* with quality.samples rays, or when adaptive the most of one pass */
     const wo_lens *levels; /* [level_count] the same lens with more and more rays, when adaptive */
     int level_count;
+    const wo_lens *taps; /* the same lens with at least wo_renderer.taps rays; NULL if that is 0 */
     const wo_highlights *highlights;
     const wo_lens_rays *rays; /* the class of every tile; renders one with all rays */
     wo_rect extent;           /* where the picture has pixels */
@@ -34,20 +35,31 @@ typedef struct wo_defocus {
 /* A window of results, row by row; borrowed. window lies inside the planned one. */
 typedef struct wo_frame {
     wo_rect window;
-    wo_rect tiles;       /* wo_tiles_of(window) */
-    const uint8_t *skip; /* [tiles] 1 = nobody looks at it: leave it 0; NULL = none */
-    float (*c)[4];       /* premultiplied */
-    float *guessed;      /* fraction of the light that came from invented surfaces */
-    float *rays;         /* lens rays spent on the pixel; NULL = not wanted */
-    float *mask;         /* how much of the pixel rays alone decide, 0..1; NULL = not wanted */
-    float *error;        /* estimated standard error of the displayed value, the mean of the squares
-                            of the three colours; NAN = not known; NULL = not wanted */
+    wo_rect tiles;  /* wo_tiles_of(window) */
+    uint8_t *skip;  /* [tiles] 1 = nobody looks at it: leave it 0; NULL = none */
+    float (*c)[4];  /* premultiplied */
+    float *guessed; /* fraction of the light that came from invented surfaces */
+    float *rays;    /* lens rays spent on the pixel; NULL = not wanted */
+    float *mask;    /* how much of the pixel rays alone decide, 0..1; NULL = not wanted */
+    float *error;   /* estimated standard error of the displayed value, the mean of the squares
+                       of the three colours; NAN = not known; NULL = not wanted */
 } wo_frame;
+
+/* Planes of a frame of a method's own. */
+enum { WO_FRAME_PIXELS = 1, WO_FRAME_RAYS = 2, WO_FRAME_MASK = 4, WO_FRAME_ERROR = 8 };
+
+/* Memory for window, which contains frame->window. Tiles are skipped that lie more than reach px
+   from all tiles of frame that somebody looks at. Destroy in any case. */
+WO_NODISCARD wo_status wo_frame_around(const wo_context *context, const wo_frame *frame,
+                                       wo_rect window, int32_t reach, unsigned planes,
+                                       wo_frame *around, wo_error *error);
+void wo_frame_destroy(const wo_context *context, wo_frame *around);
 
 typedef struct wo_renderer {
     const char *key;
     const char *label;
     bool estimates; /* its own error: frame->error is wanted always */
+    int taps;       /* it wants scene->taps, of so many rays */
     int32_t margin; /* px round the window for which scene->rays and the stack must hold tiles */
     /* Fills all of frame. report: rays, steps, tiles and omissions are added to. Takes what memory
        it needs from the context and gives it back; polls the context for an abort. */

@@ -18,20 +18,31 @@ static int wavelengths_of(const wo_lens_blur_params *p)
     return p->wavelengths < most ? p->wavelengths : most;
 }
 
-/* Numbers of rays: one, or doubled and doubled until the budget. */
-static int list_levels(const wo_lens_blur_params *p, int count[WO_LEVELS_MAX])
+/* Numbers of rays: one, or doubled and doubled until the budget; and what the method wants for
+   taps, if none of these will do. */
+static void list_lenses(wo_plan *plan, int count[WO_LEVELS_MAX])
 {
-    if (p->sampling == WO_SAMPLING_FIXED) {
-        count[0] = p->samples;
-        return 1;
-    }
-    int rays = FIRST_RAYS;
-    while (wo_lens_blur_has_table(p) && rays < FIRST_RAYS_A_LINE * wavelengths_of(p))
-        rays *= 2;
+    const wo_lens_blur_params *p = &plan->params;
     int levels = 0;
-    for (; levels < WO_LEVELS_MAX && (levels == 0 || rays < p->max_rays); rays *= 2)
-        count[levels++] = rays < p->max_rays ? rays : p->max_rays;
-    return levels;
+    if (p->sampling == WO_SAMPLING_FIXED) {
+        count[levels++] = p->samples;
+    } else {
+        int rays = FIRST_RAYS;
+        while (wo_lens_blur_has_table(p) && rays < FIRST_RAYS_A_LINE * wavelengths_of(p))
+            rays *= 2;
+        for (; levels < WO_LEVELS_MAX - 1 && (levels == 0 || rays < p->max_rays); rays *= 2)
+            count[levels++] = rays < p->max_rays ? rays : p->max_rays;
+    }
+    plan->levels = plan->lenses = levels;
+    plan->taps = -1;
+    const int wanted = wo_renderer_of((wo_method)p->method)->taps;
+    if (wanted == 0)
+        return;
+    plan->taps = 0;
+    while (plan->taps < levels && count[plan->taps] < wanted)
+        plan->taps++;
+    if (plan->taps == levels)
+        count[plan->lenses++] = wanted;
 }
 
 /* Those that borrow the table first. */
@@ -49,7 +60,7 @@ static wo_status make_table_lens(wo_plan *plan, wo_error *error)
     const wo_geometry *g = &plan->geometry;
     const wo_rect far = wo_rect_union(g->extent, g->format);
     int count[WO_LEVELS_MAX];
-    const int levels = list_levels(p, count);
+    list_lenses(plan, count);
     const int wavelengths = wavelengths_of(p);
     wo_table_pencil_options options = {
         .aperture = &s->aperture,
@@ -97,7 +108,7 @@ static wo_status make_table_lens(wo_plan *plan, wo_error *error)
             s->lens.k * fmax(1, g->pixel_stretch) * (p->f_stop / fmax(chosen->f_number, p->f_stop));
         status = wo_table_pencils_create(&plan->context, &chosen->model, &options, &plan->table[0],
                                          &plan->facts, error);
-        for (int i = 1; status == WO_OK && i < levels; i++)
+        for (int i = 1; status == WO_OK && i < plan->lenses; i++)
             status = wo_table_pencils_again(&plan->context, plan->table[0], &s->aperture, count[i],
                                             &plan->table[i], error);
     }
@@ -105,8 +116,7 @@ static wo_status make_table_lens(wo_plan *plan, wo_error *error)
     wo_delete(&plan->context, chosen);
     if (status != WO_OK)
         return status;
-    plan->levels = levels;
-    for (int i = 0; i < levels; i++)
+    for (int i = 0; i < plan->lenses; i++)
         plan->level[i] = wo_table_pencils_lens(plan->table[i]);
     if (plan->facts.wavelengths < wavelengths)
         wo_report_leave_out(&plan->report, "wavelengths",
@@ -133,8 +143,8 @@ static wo_status make_lens(wo_plan *plan, wo_error *error)
     wo_thin_lens lens = plan->setup.lens;
     lens.vf = 0;
     int count[WO_LEVELS_MAX];
-    plan->levels = list_levels(&plan->params, count);
-    for (int i = 0; i < plan->levels; i++) {
+    list_lenses(plan, count);
+    for (int i = 0; i < plan->lenses; i++) {
         WO_TRY(wo_thin_pencils_create(&plan->context, &lens, &plan->setup.aperture,
                                       plan->geometry.pixel_stretch, count[i],
                                       (uint32_t)plan->params.seed, &plan->pencils[i], error));
@@ -150,7 +160,7 @@ static void tilt_lens(wo_plan *plan)
     plan->setup.tilt = 1 / (1 - plan->focus.tilt_slope);
     if (plan->focus.tilt_slope == 0)
         return;
-    for (int i = 0; i < plan->levels; i++) {
+    for (int i = 0; i < plan->lenses; i++) {
         plan->upright[i] = plan->level[i];
         plan->tilted[i] = (wo_tilted_pencils){.inside = &plan->upright[i],
                                               .b = {plan->focus.tilt[0], plan->focus.tilt[1]},

@@ -20,7 +20,9 @@ struct wo_plan {
     wo_rect window;
     wo_image mask, source; /* borrowed */
     wo_alpha source_alpha;
-    int levels;                              /* the lens with more and more rays */
+    int lenses;                              /* all of one lens, with other numbers of rays */
+    int levels;                              /* the first ones: more and more rays */
+    int taps;                                /* one for wo_defocus.taps; -1 = not wanted */
     wo_thin_pencils *pencils[WO_LEVELS_MAX]; /* the one or the other */
     wo_table_pencils *table[WO_LEVELS_MAX];  /* [0] owns the table */
     wo_lens level[WO_LEVELS_MAX];

@@ -199,6 +199,7 @@ static wo_status render_frame(render_job *job, wo_report *report, wo_error *erro
                               .lens = &plan->lens,
                               .levels = plan->level,
                               .level_count = plan->levels,
+                              .taps = plan->taps < 0 ? NULL : &plan->level[plan->taps],
                               .highlights = &plan->highlights,
                               .rays = &plan->rays,
                               .extent = plan->geometry.extent,
