@@ -83,6 +83,17 @@ void *wo_new_large(const wo_context *context, wo_error *error, size_t count, siz
     return memory;
 }
 
+void *wo_new_raw(const wo_context *context, wo_error *error, size_t count, size_t size)
+{
+    size_t bytes;
+    void *memory = obtain(context, error, count, size, &bytes);
+#ifndef NDEBUG
+    if (memory)
+        memset(memory, 0xff, bytes); /* NaN: whoever reads it all the same is found by tests */
+#endif
+    return memory;
+}
+
 void wo_delete(const wo_context *context, void *memory)
 {
     if (!memory)

@@ -32,8 +32,7 @@ wo_status wo_accumulate_create(const wo_defocus *scene, wo_accumulate *all, wo_e
                            .kernels = wo_draw_choose(wo_cpu_detect(context->cpu)),
                            .levels = 1,
                            .v_connect = (float)(WO_CONNECT_PX / scene->lens->px_per_dioptre)};
-    wo_status status = wo_pieces_create(context, scene->stack, scene->lens, all->v_connect,
-                                        &all->pieces[0], error);
+    wo_status status = wo_pieces_create(context, scene->stack, scene->lens, &all->pieces[0], error);
     /* Coarser levels, if any tile wants them. */
     const int samples = scene->quality.adaptive ? scene->levels[0].count : scene->lens->count;
     double level = 0;
@@ -162,7 +161,6 @@ bool wo_accumulate_begin(const wo_accumulate *all, wo_accumulator *worker, int32
     for (int level = 0; level < all->levels; level++) {
         wo_draw *draw = &worker->draw[level];
         *draw = (wo_draw){.pieces = &all->pieces[level],
-                          .v_connect = all->v_connect * (float)(1 << level),
                           .x1 = rect.x1 >> level,
                           .y1 = rect.y1 >> level,
                           .v_low = low,
@@ -310,7 +308,7 @@ bool wo_accumulate_add(const wo_accumulate *all, wo_accumulator *worker, const w
 {
     const double detail = wo_accumulate_level(all, tx, ty, lens->count);
     const int last = (int)ceil(detail);
-    read_rays(lens, pass % lens->sets, worker, tx, ty);
+    read_rays(lens, wo_hash(pass) % lens->sets, worker, tx, ty);
     for (int half = 0; half < 2; half++) {
         const int first = half == 0 ? 0 : lens->half;
         const int end = half == 0 ? lens->half : lens->count;

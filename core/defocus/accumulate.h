@@ -14,8 +14,8 @@ typedef struct wo_accumulate {
     const wo_defocus *scene;
     const wo_draw_kernels *kernels;
     wo_pieces pieces[WO_LEVELS];
-    int levels; /* made of these */
-    float v_connect;
+    int levels;      /* made of these */
+    float v_connect; /* dioptres: a coarser pixel mixes no more */
 } wo_accumulate;
 
 WO_NODISCARD wo_status wo_accumulate_create(const wo_defocus *scene, wo_accumulate *all,
@@ -50,14 +50,14 @@ typedef struct wo_accumulator {
     wo_view_ray *ray;   /* [count] of the tile */
     float (*weight)[3]; /* [count]; see weighted */
     bool weighted;
-    wo_same *same;           /* [count] */
-    wo_view_ray *group;      /* [count] */
-    wo_draw draw[WO_LEVELS]; /* of the tile */
-    float *thin_v;           /* [3 thin_room] and x, y */
-    wo_thin_at *thin_at;     /* [2 thin_room] sorted, and as found */
-    uint32_t *thin_order;    /* [4 thin_room] */
-    wo_thin_hit *thin_hits;  /* [3 thin_room] */
-    float (*thin_around)[4]; /* [9 around_room] */
+    wo_same *same;               /* [count] */
+    wo_view_ray *group;          /* [count] */
+    wo_draw draw[WO_LEVELS];     /* of the tile */
+    float *thin_v;               /* [3 thin_room] and x, y */
+    wo_thin_at *thin_at;         /* [2 thin_room] sorted, and as found */
+    uint32_t *thin_order;        /* [4 thin_room] */
+    wo_thin_hit *thin_hits;      /* [3 thin_room] */
+    wo_thin_around *thin_around; /* [around_room] */
     size_t thin_room, around_room;
     int level_used; /* the coarsest of the tile */
     int64_t writes;

@@ -149,28 +149,27 @@ static bool make_around_room(const wo_accumulate *all, wo_accumulator *worker,
         return true;
     wo_delete(context, worker->thin_around);
     worker->around_room = mixed + mixed / 2;
-    worker->thin_around =
-        wo_new(context, NULL, worker->around_room, 9 * sizeof *worker->thin_around);
+    worker->thin_around = wo_new(context, NULL, worker->around_room, sizeof *worker->thin_around);
     return worker->thin_around != NULL;
 }
 
-/* What a thin pixel shows, and what it is mixed with where its blur is small: neighbours on other
-   surfaces lend its own colour, those where there is nothing lend nothing. */
-static void look_around(const wo_accumulate *all, wo_thin_at *thin, float (*around)[4])
+/* What a thin pixel shows, and what it is mixed with where its blur is small: for a neighbour on
+   another surface its own colour stands; one where there is nothing lends nothing. */
+static void look_around(wo_thin_at *thin, wo_thin_around *around)
 {
     const float *const red = thin->piece->plane + WO_PIECE_RED * WO_PIECE_PLANE + thin->at;
     const float *const v = thin->piece->plane + WO_PIECE_V * WO_PIECE_PLANE + thin->at;
     for (int k = 0; k < 4; k++)
         thin->c[k] = red[k * WO_PIECE_PLANE];
     thin->drop = drop_at(thin);
-    thin->around = (const float(*)[4])around;
+    thin->around = around;
     for (int n = 0; around && n < 9; n++) {
         const int beside = (n / 3 - 1) * WO_PIECE_ROW + n % 3 - 1;
-        const bool same = fabsf(v[beside] - v[0]) <= all->v_connect;
+        around->away[n] = isinf(v[beside])   ? 0
+                          : isnan(v[beside]) ? INFINITY
+                                             : fabsf(v[beside] - v[0]);
         for (int k = 0; k < 4; k++)
-            around[n][k] = same               ? red[k * WO_PIECE_PLANE + beside]
-                           : isinf(v[beside]) ? 0
-                                              : thin->c[k];
+            around->c[n][k] = red[k * WO_PIECE_PLANE + beside];
     }
 }
 
@@ -205,8 +204,8 @@ bool wo_thin_gather(const wo_accumulate *all, wo_accumulator *worker, wo_rect ti
         const int32_t piece =
             (int32_t)((one.piece - p->pieces) % ((ptrdiff_t)p->columns * p->rows));
         worker->thin_at[i] = one;
-        look_around(all, &worker->thin_at[i],
-                    is_mixed(all, &one) ? worker->thin_around + 9 * mixed++ : NULL);
+        look_around(&worker->thin_at[i],
+                    is_mixed(all, &one) ? worker->thin_around + mixed++ : NULL);
         v[i] = one.piece->plane[WO_PIECE_V * WO_PIECE_PLANE + one.at];
         x[i] = (float)(p->x1 + piece % p->columns * WO_PIECE_WIDTH + one.at % WO_PIECE_ROW - 1 -
                        tile.x1);

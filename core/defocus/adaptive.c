@@ -7,28 +7,36 @@
 
 float wo_shown(float a, float b)
 {
-    /* The slope over as much as the mean may be wrong: what is white anyway may be as noisy as it
-       likes. */
+    /* What is white anyway may be as noisy as it likes. */
     const float mean = 0.5f * (a + b);
-    const float reach = fmaxf(0.5f * (float)WO_HALVES_TO_ERROR * fabsf(a - b), 1e-4f);
+    const float reach = fmaxf(0.5f * fabsf(a - b), 1e-4f);
     return (wo_display(mean + reach) - wo_display(mean - reach)) / (2 * reach);
 }
 
-float wo_tile_noise(const wo_tile_work *work, const wo_tile_sums *sums, int32_t row, int run_index,
-                    int i)
+float wo_noise_add(wo_noise *noise, const float a[3], const float b[3], const float light[3])
 {
-    if (sums->rays <= 1)
-        return 0;
-    float c[2][4];
-    float noise = 0;
-    for (int h = 0; h < 2; h++)
-        if (!wo_tile_work_pixel(work, &sums->halves[row][run_index][h], row, run_index, i, c[h]))
-            return 0;
+    float sum = 0;
     for (int k = 0; k < 3; k++) {
-        const float d = 0.5f * (c[1][k] - c[0][k]) * wo_shown(c[0][k], c[1][k]);
-        noise += d * d * (1.0f / 3);
+        const float d = 0.5f * (wo_display(a[k] + light[k]) - wo_display(b[k] + light[k]));
+        const float all = fmaxf(fabsf(a[k]) + fabsf(b[k]), 1e-4f);
+        sum += d * d * (1.0f / 3);
+        noise->square += (double)(d * d);
+        noise->apart += (double)(d * d * fminf(fabsf(a[k] - b[k]) / all, 1));
     }
-    return noise;
+    return sum;
+}
+
+/* Parts of the light from where to where a lattice turns into chance. Measured on footage. */
+#define APART_FROM 0.35
+#define APART_TO   0.65
+
+double wo_noise_factor(const wo_noise *noise)
+{
+    const double lattice = WO_HALVES_TO_ERROR * WO_HALVES_TO_ERROR;
+    const double chance = WO_CHANCE_TO_ERROR * WO_CHANCE_TO_ERROR;
+    const double apart = noise->square > 0 ? noise->apart / noise->square : 0;
+    const double t = fmin(fmax((apart - APART_FROM) / (APART_TO - APART_FROM), 0), 1);
+    return lattice + (chance - lattice) * t * t * (3 - 2 * t);
 }
 
 static void scale_sums(wo_march_sums *sums, float scale)
@@ -100,7 +108,7 @@ bool wo_tile_sample(const wo_defocus *scene, wo_tile_work *work, wo_tile_error *
             pow((double)lens->count / scene->levels[0].count, WO_LATTICE_POWER - 1);
         if (!trace(work, lens, pass, scale, sums, report))
             return false;
-        const double e = WO_ERROR_SIGMAS * WO_HALVES_TO_ERROR * sqrt(error(user, work, sums));
+        const double e = WO_ERROR_SIGMAS * sqrt(error(user, work, sums));
         if (e <= scene->quality.target_error || wo_ray_tile_straight(work->tile))
             return true;
         const double too_large =

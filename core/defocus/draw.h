@@ -35,11 +35,17 @@ enum {
    and coverage, part of the light that came from invented surfaces. */
 enum { WO_VIEW_V, WO_VIEW_RED, WO_VIEW_ALPHA = WO_VIEW_RED + 3, WO_VIEW_GUESSED, WO_VIEW_PLANES };
 
+/* A thin pixel's neighbours, and itself, the fifth: what they lend to a ray that takes them for one
+   surface with it. */
+typedef struct wo_thin_around {
+    float c[9][4];
+    float away[9]; /* dioptres; infinite where another sheet has a surface and this one has none */
+} wo_thin_around;
+
 /* A thin pixel of a tile. */
 typedef struct wo_thin_at {
     const wo_piece *piece;
-    /* [9] what its neighbours lend, and itself, the fifth; NULL = not wanted: its blur is large */
-    const float (*around)[4];
+    const wo_thin_around *around; /* NULL = not wanted: its blur is large */
     float c[4];
     float drop; /* dioptres to its farthest neighbour */
     int16_t at; /* in the planes of the piece */
@@ -77,7 +83,6 @@ typedef struct wo_view {
 /* What may be seen in a view. */
 typedef struct wo_draw {
     const wo_pieces *pieces;
-    float v_connect;
     int32_t x1, y1;                  /* first pixel of the view, in pixels of the level */
     wo_bounds bounds[WO_SHEETS_MAX]; /* of each sheet; no pixel outside of them can be seen */
     float v_low, v_high;             /* of all of these */

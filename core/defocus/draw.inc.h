@@ -12,8 +12,9 @@
 /* The displacement A + B v: s(v) = am + bm v along its longer axis, n = n0 + slope s across. */
 typedef struct line {
     float am, bm, n0, slope;
-    int upright; /* the longer axis is y */
-    int dir;     /* of a ray's steps from near to far */
+    int upright;   /* the longer axis is y */
+    int dir;       /* of a ray's steps from near to far */
+    float connect; /* dioptres: neighbours closer than this are one surface for the ray */
 } line;
 
 WO_SIMD line line_of(const wo_view_ray *ray)
@@ -27,6 +28,7 @@ WO_SIMD line line_of(const wo_view_ray *ray)
     l.slope = l.bm != 0 ? bn / l.bm : 0;
     l.n0 = an - l.slope * l.am;
     l.dir = l.bm >= 0 ? -1 : 1;
+    l.connect = WO_CONNECT_PX / fmaxf(fabsf(l.bm), 1e-30f);
     return l;
 }
 
@@ -118,14 +120,14 @@ typedef struct drawing {
 
 /* Colours of sixteen solid pixels, mixed with those neighbours of their surface that are covered as
    they are. */
-WO_SIMD void shade(const wo_piece *piece, int at, float v_connect, const vf w[9], vf c[3])
+WO_SIMD void shade(const wo_piece *piece, int at, float connect, const vf w[9], vf c[3])
 {
     const float *const plane = piece->plane;
     const float *const v = plane + WO_PIECE_V * WO_PIECE_PLANE;
     const float *const alpha = plane + WO_PIECE_ALPHA * WO_PIECE_PLANE;
     const float *const red = plane + WO_PIECE_RED * WO_PIECE_PLANE;
     const vf here = v_load(v + at);
-    const vf limit = v_set(v_connect);
+    const bool joined = piece->full && piece->high - piece->low <= connect;
     vf own = w[4];
     for (int k = 0; k < 3; k++)
         c[k] = v_set(0);
@@ -134,10 +136,10 @@ WO_SIMD void shade(const wo_piece *piece, int at, float v_connect, const vf w[9]
             continue;
         const int beside = at + (n / 3 - 1) * WO_PIECE_ROW + n % 3 - 1;
         vf part = w[n];
-        if (!piece->joined) {
+        if (!joined) {
             const vf away = v_abs(v_sub(v_load(v + beside), here));
             const vm full = v_less_equal(v_set(1), v_load(alpha + beside));
-            part = v_mask(m_and(v_less_equal(away, limit), full), part);
+            part = v_mask(m_and(v_less_equal(away, v_set(connect)), full), part);
             own = v_add(own, v_sub(w[n], part));
         }
         for (int k = 0; k < 3; k++)
@@ -219,7 +221,7 @@ static void draw_moved(drawing *g, const wo_piece *piece, int first, int last, i
         if (moves)
             stencil_beside(&g->l, i, v_fma(bm, v, am), w);
         if (near)
-            shade(piece, at, g->d->v_connect, w, c);
+            shade(piece, at, g->l.connect, w, c);
         else
             plain(piece, at, c);
         put(view, place, mask, v, c, v_set(guess));
@@ -269,7 +271,7 @@ static void draw_step(drawing *g, const wo_piece *piece, int row, int32_t x, int
     if (i <= WO_SMOOTH_PX && i >= -WO_SMOOTH_PX) {
         vf w[9];
         stencil_beside(l, i, v_mask(mask, v_mul(dir, v_select(crossed, cross_t, e))), w);
-        shade(piece, at, g->d->v_connect, w, c);
+        shade(piece, at, g->l.connect, w, c);
     } else {
         plain(piece, at, c);
     }
@@ -424,11 +426,14 @@ static void draw_thin(drawing *g, const wo_thin_hit *hit)
                 l->n0 + l->slope * i - (float)across_at(l, hit->step) + l->slope * hit->t;
             add_stencil(l->upright ? across : hit->t, l->upright ? hit->t : across, w);
         }
+        float own = 1;
+        for (int n = 0; n < 9; n++)
+            own -= w[n] = thin->around->away[n] <= l->connect ? w[n] : 0;
         for (int k = 0; k < 4; k++)
-            c[k] = w[0] * thin->around[0][k];
-        for (int n = 1; n < 9; n++)
+            c[k] *= own;
+        for (int n = 0; n < 9; n++)
             for (int k = 0; k < 4; k++)
-                c[k] += w[n] * thin->around[n][k];
+                c[k] += w[n] * thin->around->c[n][k];
         /* Where interpolation leaves 0..1, colours are cut as coverage is. */
         if (c[3] < 0)
             return;
@@ -536,7 +541,6 @@ static void draw_thins(drawing *g)
             g->view->thin[y][x] = (wo_thin_sum){{0}, 1, 0};
     const vf right = v_set((float)g->view->width + 2.5f);
     const vf top = v_set((float)g->view->height + 2.5f);
-    const vf low = v_set(-3.5f);
     wo_thin_hit *const hits = list->hits;
     wo_thin_hit *const crossings = hits + list->count;
     int hit_count = 0;
@@ -547,8 +551,8 @@ static void draw_thins(drawing *g)
         const vf j = rounded(v_fma(v_set(l->slope), i, v_set(l->n0)));
         const vf x = v_sub(v_load(list->x + first), l->upright ? j : i);
         const vf y = v_sub(v_load(list->y + first), l->upright ? i : j);
-        const vm seen =
-            m_and(m_and(v_less(low, x), v_less(x, right)), m_and(v_less(low, y), v_less(y, top)));
+        const vm seen = m_and(m_and(v_less(v_set(-3.5f), x), v_less(x, right)),
+                              m_and(v_less(v_set(-3.5f), y), v_less(y, top)));
         if (!m_any(seen))
             continue;
         float to[5][WO_LANES];
@@ -584,9 +588,8 @@ static void draw_thins(drawing *g)
 static int64_t draw(const wo_draw *d, const wo_view_ray *rays, int count, wo_view *view)
 {
     drawing g = {.d = d, .rays = rays, .count = count, .l = line_of(rays), .view = view};
-    const vf nothing = v_set(-INFINITY);
     for (int place = 0; place < view->height * WO_VIEW_ROW; place += WO_LANES)
-        v_store(view->plane[WO_VIEW_V] + place, nothing);
+        v_store(view->plane[WO_VIEW_V] + place, v_set(-INFINITY));
     for (int k = WO_VIEW_RED; k < WO_VIEW_PLANES; k++)
         memset(view->plane[k], 0, (size_t)view->height * WO_VIEW_ROW * sizeof(float));
     for (int s = 0; s < d->pieces->sheets; s++)

@@ -16,13 +16,26 @@
    Classes are told apart by more than CLASS_PX of blur, and more the farther the tap is away, so
    that a slope remains one surface. */
 
+/* A soft disc of reach R stands for a circle of confusion. The light of a place so many px from its
+   middle is the square of (R + 1/2 - away) (1 - SOFT min(R - 1/2, 1)), cut to 0..1: an edge of one
+   px where the next pixels alone are reached, of 4/3 px soon after. The square, so that a pixel
+   that a growing disc comes to gets little light at first: a bright point must not pop. R >= 1/2.
+ */
+#define WO_FILTER_SOFT 0.25f
+static inline float wo_filter_soft(float reach, float away)
+{
+    const float r = reach - 0.5f;
+    const float t = (r + 1 - away) * (1 - WO_FILTER_SOFT * (r < 1 ? r : 1));
+    return t <= 0 ? 0 : t >= 1 ? 1 : t * t;
+}
+
 /* The scene as two pictures, the nearest surfaces and what is next behind them, on the layout of a
    stack. d is the vergence from the best focus, in px of blur radius; where there is no surface it
    and reach are WO_FILTER_NONE (or 0) and the rest is 0. */
 #define WO_FILTER_NONE (-1e6f)
 typedef struct wo_filter_picture {
     const float *d;
-    const float *reach;   /* px: radius of the soft disc that stands for the circle of confusion */
+    const float *reach;   /* px: of the soft disc */
     const float *share;   /* one over the sum of the soft disc: of its light that a pixel gets */
     const float *cover;   /* coverage 0..1 */
     const float *c[3];    /* premultiplied, times share */

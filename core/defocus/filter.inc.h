@@ -18,15 +18,18 @@ WO_SIMD vf clip01(vf x)
     return v_min(v_max(x, v_set(0)), v_set(1));
 }
 
-/* How far discs reach over a place so far away: 1 inside, 0 outside, a px of soft edge. */
+/* wo_filter_soft; with a hole of this part of the disc. */
 WO_SIMD vf met(vf reach, vf away, float hole)
 {
-    const vf half = v_set(0.5f);
-    const vf outer = clip01(v_add(v_sub(reach, away), half));
+    const vf one = v_set(1);
+    const vf r = v_sub(reach, v_set(0.5f));
+    const vf steep = v_fma(v_set(-WO_FILTER_SOFT), v_min(r, one), one);
+    const vf t = clip01(v_mul(v_add(v_sub(r, away), one), steep));
+    const vf outer = v_mul(t, t);
     if (!(hole > 0))
         return outer;
-    const vf inner = v_mul(v_sub(reach, half), v_set(hole));
-    return v_mul(outer, clip01(v_add(v_sub(away, inner), v_set(1))));
+    const vf inner = v_mul(r, v_set(hole));
+    return v_mul(outer, clip01(v_add(v_sub(away, inner), one)));
 }
 
 /* Shares of a place in the three classes. */

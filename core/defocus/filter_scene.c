@@ -112,7 +112,7 @@ static void measure(double reach, double *radius, double *area)
     double moment = 0;
     for (int y = -AROUND; y <= AROUND; y++)
         for (int x = -AROUND; x <= AROUND; x++) {
-            const double w = fmin(fmax(reach - sqrt(x * x + y * y) + 0.5, 0), 1);
+            const double w = (double)wo_filter_soft((float)reach, hypotf((float)x, (float)y));
             sum += w;
             moment += w * x * x;
         }
@@ -123,18 +123,11 @@ static void measure(double reach, double *radius, double *area)
 void wo_filter_discs_make(wo_filter_discs *discs)
 {
     const double step = 1.0 / 256;
-    /* Up to a radius of 1 only the four nearest neighbours are reached. */
-    double reach = 0.75;
-    double r[2] = {1, 1};
-    double area[2] = {2, 2};
+    double reach = 0.5;
+    double r[2] = {0, 0};
+    double area[2] = {1, 1};
     for (int i = 0; i < WO_FILTER_RADII + 2; i++) {
         const double want = (double)i / WO_FILTER_FINE;
-        if (want <= 1) {
-            const double edge = want * want / (8 - 4 * want * want);
-            discs->reach[i] = (float)(0.5 + edge);
-            discs->share[i] = (float)(1 / (1 + 4 * edge));
-            continue;
-        }
         while (r[1] < want) {
             r[0] = r[1];
             area[0] = area[1];

@@ -24,10 +24,10 @@ typedef struct wo_filter_shape {
 /* Direction of (x, y), not (0, 0): 0..WO_FILTER_BINS - 1. */
 int wo_filter_bin(float x, float y);
 
-/* Soft discs for circles of confusion of radius i / WO_FILTER_FINE px: they reach so far, half of
-   their edge of one px beyond, and a pixel under one gets this share of the light. The second
-   moment of a disc over the pixels is that of the circle, so that small circles blur as much as
-   they should and grow evenly; radius 0 reaches no neighbour. */
+/* Soft discs (filter.h) for circles of confusion of radius i / WO_FILTER_FINE px: their reach, and
+   the share of the light that a pixel in the middle of one gets. The second moment of a disc over
+   the pixels is that of the circle, so that small circles blur as much as they should and grow
+   evenly; radius 0 reaches no neighbour. */
 enum { WO_FILTER_FINE = 32, WO_FILTER_RADII = 3 * WO_FILTER_FINE };
 typedef struct wo_filter_discs {
     float reach[WO_FILTER_RADII + 2];
@@ -46,8 +46,12 @@ static inline void wo_filter_disc(const wo_filter_discs *discs, float r, float h
         *reach = discs->reach[i] + t * (discs->reach[i + 1] - discs->reach[i]);
         *share = discs->share[i] + t * (discs->share[i + 1] - discs->share[i]);
     } else {
-        *reach = sqrtf(r * r - 5.0f / 12);
-        *share = 1 / (3.14159265f * (*reach * *reach + 1.0f / 12));
+        /* The edge lies so far inside, and has such a variance. */
+        const float inside = 7.0f / 18;
+        const float variance = 8.0f / 81;
+        const float edge = sqrtf(r * r - 5 * variance);
+        *reach = edge + inside;
+        *share = 1 / (3.14159265f * (edge * edge + variance));
     }
     const float gap = (*reach - 0.5f) * hole - 0.5f;
     if (gap > 0)

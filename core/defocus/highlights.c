@@ -22,8 +22,10 @@ typedef struct take_job {
 } take_job;
 
 /* Vergences of highlights are rounded to steps of 1/QUANTUM px of blur, so that few shares are
-   worked out; CACHE of them are kept. */
-#define QUANTUM 32.0
+   worked out; CACHE of them are kept. Images that are drawn are rounded to twice as much for each
+   QUANTUM_EVEN px. */
+#define QUANTUM      32.0
+#define QUANTUM_EVEN 16.0
 enum { CACHE = 64 };
 
 typedef struct share_cache {
@@ -35,9 +37,10 @@ typedef struct share_cache {
 /* The pixel of a highlight is already as soft as the picture, so large discs need no soft edge. But
    discs up to SOFT px of reach have edges cut by the area of each pixel, so that they grow
    smoothly; from there to twice that it matters less and less, and then the middle of the pixel
-   counts. */
+   counts. The area is looked at in places of a lattice: no two are in one row or column, which a
+   rim could reach at once. */
 #define SOFT 2.0
-enum { PLACES = 8 };
+enum { PLACES = 144, STRIDE = 89 };
 
 /* Density of rays over the pixel at the offset (dx, dy), and one of them. */
 static double density_at(const wo_lens *lens, int32_t dx, int32_t dy, float v, float reach,
@@ -54,16 +57,16 @@ static double density_at(const wo_lens *lens, int32_t dx, int32_t dy, float v, f
     const bool even = corners[0] == corners[1] && corners[0] == corners[2] &&
                       corners[0] == corners[3] && corners[0] == density &&
                       (corners[0] > 0 || dx * dx + dy * dy > 2);
-    for (int i = 0; i < PLACES * PLACES && soft > 0 && !even; i++) {
-        const double x = dx + (i % PLACES + 0.5) / PLACES - 0.5;
-        const double y = dy + (i / PLACES + 0.5) / PLACES - 0.5;
+    for (int i = 0; i < PLACES && soft > 0 && !even; i++) {
+        const double x = dx + (i + 0.5) / PLACES - 0.5;
+        const double y = dy + (STRIDE * i % PLACES + 0.5) / PLACES - 0.5;
         double inside[4];
         const double d = lens->connect(lens->self, x, y, v, inside);
         if (d > 0)
             memcpy(line, inside, sizeof inside);
         sum += d;
     }
-    sum = soft * (even ? corners[0] : sum / (PLACES * PLACES));
+    sum = soft * (even ? corners[0] : sum / PLACES);
     /* The ray through the middle, if it is there. */
     if (density > 0)
         memcpy(line, middle, sizeof middle);
@@ -121,21 +124,37 @@ static float fade(double reach)
     return (float)(t >= 1 ? 1 : t * t * (3 - 2 * t));
 }
 
-/* One pixel of a sheet that is a highlight, or not. */
+static inline bool is_bright(const float c[4])
+{
+    return (c[0] > WO_HIGHLIGHT_LEVEL) | (c[1] > WO_HIGHLIGHT_LEVEL) | (c[2] > WO_HIGHLIGHT_LEVEL);
+}
+
+/* Light of a highlight that stays. Rays of a lens with a table each carry one wavelength, and what
+   is left to them shows as coloured grain: little is, from twice the level on. */
+static float rest_of(const wo_lens *lens, float peak)
+{
+    const float part = lens->connect ? 0 : fminf(peak / WO_HIGHLIGHT_LEVEL - 1, 1);
+    return WO_HIGHLIGHT_LEVEL + part * (WO_HIGHLIGHT_REST - WO_HIGHLIGHT_LEVEL);
+}
+
+/* One bright pixel of a sheet that is a highlight, or not. */
 static bool is_highlight(const take_job *job, const wo_sheet *sheet, size_t at, spot *found)
 {
     const float *c = sheet->c[at];
-    const float peak = fmaxf(c[0], fmaxf(c[1], c[2]));
-    if (!(peak > WO_HIGHLIGHT_LEVEL) || isnan(sheet->v[at]))
+    if (isnan(sheet->v[at]))
         return false;
+    const float peak = fmaxf(c[0], fmaxf(c[1], c[2]));
     const wo_lens *lens = job->lens;
-    const double step = lens->px_per_dioptre * QUANTUM;
+    double step = lens->px_per_dioptre * QUANTUM;
+    const double radius = fabs((double)sheet->v[at]) * lens->px_per_dioptre;
+    if (!lens->connect && radius > QUANTUM_EVEN)
+        step /= exp2(floor(log2(radius / QUANTUM_EVEN)) + 1);
     found->v = (float)(rint(sheet->v[at] * step) / step);
     found->reach = (float)lens->reach(lens->self, found->v, found->v);
     const double exact = lens->reach(lens->self, sheet->v[at], sheet->v[at]);
     if (!(exact > WO_HIGHLIGHT_FROM))
         return false;
-    found->taken = fade(exact) * (peak - WO_HIGHLIGHT_LEVEL) / peak;
+    found->taken = fade(exact) * (peak - rest_of(lens, peak)) / peak;
     return true;
 }
 
@@ -160,7 +179,8 @@ static void count_tile(void *user, size_t index, unsigned worker)
         for (int32_t y = r.y1; sheet->any && y < r.y2; y++)
             for (int32_t x = r.x1; x < r.x2; x++) {
                 const size_t at = (size_t)((y - sheet->area.y1) * w + x - sheet->area.x1);
-                job->counts[index] += is_highlight(job, sheet, at, &found);
+                if (is_bright(sheet->c[at]))
+                    job->counts[index] += is_highlight(job, sheet, at, &found);
             }
     }
 }
@@ -182,9 +202,10 @@ static void take_tile(void *user, size_t index, unsigned worker)
             for (int32_t x = r.x1; x < r.x2; x++) {
                 const size_t at = (size_t)((y - sheet->area.y1) * w + x - sheet->area.x1);
                 spot found;
-                if (!is_highlight(job, sheet, at, &found))
+                if (!is_bright(sheet->c[at]) || !is_highlight(job, sheet, at, &found))
                     continue;
-                const double part = cached_share(&cache, job->lens, found.v, found.reach);
+                const double part =
+                    job->lens->connect ? cached_share(&cache, job->lens, found.v, found.reach) : 1;
                 /* Slits that no pixel looks through: the light stays with the surface. */
                 const float above = part > 0 ? found.taken : 0;
                 *to = (wo_highlight){x, y, found.v, found.reach, packed, {0}};
@@ -222,7 +243,7 @@ wo_status wo_highlights_take(const wo_context *context, wo_sheet *sheets, size_t
                              wo_error *error)
 {
     *highlights = (wo_highlights){0};
-    if (!lens->connect || wo_rect_empty(area))
+    if ((!lens->connect && !lens->iris.rays) || wo_rect_empty(area))
         return WO_OK;
     const wo_rect tiles = {floor_div(area.x1, WO_TILE_WIDTH), floor_div(area.y1, WO_TILE_HEIGHT),
                            floor_div(area.x2 - 1, WO_TILE_WIDTH) + 1,
@@ -266,6 +287,7 @@ void wo_highlights_destroy(const wo_context *context, wo_highlights *highlights)
 {
     wo_delete(context, highlights->list);
     wo_delete(context, highlights->first);
+    wo_delete(context, highlights->glow);
     *highlights = (wo_highlights){0};
 }
 
@@ -317,17 +339,54 @@ static float visible(const wo_stack *stack, int32_t x, int32_t y, const double l
     return 0;
 }
 
-/* True when no surface between the two pixels can hide the highlight. */
-static bool nothing_between(const wo_stack *stack, int32_t x, int32_t y, const wo_highlight *h,
-                            float px_per_dioptre)
+/* True when no surface on the way of the ray, from where it may meet the nearest one to the
+   highlight, can hide it. */
+static bool nothing_between(const wo_stack *stack, int32_t x, int32_t y, const double line[4],
+                            const wo_highlight *h, float v_near, float px_per_dioptre)
 {
-    const wo_rect r = {x < h->x ? x : h->x, y < h->y ? y : h->y, (x > h->x ? x : h->x) + 1,
-                       (y > h->y ? y : h->y) + 1};
+    const int32_t near_x = x + (int32_t)lrint(line[0] + line[2] * (double)v_near);
+    const int32_t near_y = y + (int32_t)lrint(line[1] + line[3] * (double)v_near);
+    const wo_rect way = {near_x < h->x ? near_x : h->x, near_y < h->y ? near_y : h->y,
+                         (near_x > h->x ? near_x : h->x) + 1, (near_y > h->y ? near_y : h->y) + 1};
     unsigned flags = 0;
     for (int s = 0; s < stack->sheets; s++)
-        if (wo_stack_bounds(stack, s, r, &flags).v_max > hides_from(h, s, px_per_dioptre))
+        if (wo_stack_bounds(stack, s, way, &flags).v_max > hides_from(h, s, px_per_dioptre))
             return false;
     return true;
+}
+
+float wo_highlight_hidden_from(const wo_highlight *h, const wo_lens *lens)
+{
+    return h->v + HIDES_PX / (float)lens->px_per_dioptre;
+}
+
+float wo_highlight_seen(const wo_highlight *h, const wo_stack *stack, const wo_lens *lens,
+                        int32_t x, int32_t y, const double line[4], float v_near)
+{
+    const float px_per_dioptre = (float)lens->px_per_dioptre;
+    if (v_near <= h->v || nothing_between(stack, x, y, line, h, v_near, px_per_dioptre))
+        return 1;
+    return visible(stack, x, y, line, h, v_near, px_per_dioptre);
+}
+
+/* A tile of what is drawn already; returns how many of its pixels are lit. */
+static int64_t add_drawn(const wo_highlights *highlights, wo_rect tile,
+                         float sums[WO_TILE_HEIGHT][WO_TILE_WIDTH][3])
+{
+    const wo_rect d = highlights->drawn;
+    const wo_rect r = wo_rect_intersect(tile, d);
+    int64_t lit = 0;
+    for (int32_t y = r.y1; y < r.y2; y++) {
+        for (int32_t x = r.x1; x < r.x2; x++) {
+            const float *c =
+                highlights
+                    ->glow[(size_t)(y - d.y1) * (size_t)wo_rect_width(d) + (size_t)(x - d.x1)];
+            lit += c[0] > 0 || c[1] > 0 || c[2] > 0;
+            for (int k = 0; k < 3; k++)
+                sums[y - tile.y1][x - tile.x1][k] += c[k];
+        }
+    }
+    return lit;
 }
 
 int64_t wo_highlights_add(const wo_highlights *highlights, const wo_stack *stack,
@@ -337,7 +396,8 @@ int64_t wo_highlights_add(const wo_highlights *highlights, const wo_stack *stack
     int64_t rays = 0;
     if (highlights->count == 0)
         return 0;
-    const float px_per_dioptre = (float)lens->px_per_dioptre;
+    if (highlights->glow)
+        return add_drawn(highlights, tile, sums);
     const int32_t reach = extent_of(highlights->reach);
     const wo_rect grown = wo_rect_grow(tile, reach, reach);
     const wo_rect tiles = wo_rect_intersect(highlights->tiles,
@@ -363,9 +423,8 @@ int64_t wo_highlights_add(const wo_highlights *highlights, const wo_stack *stack
                     if (!(density > 0))
                         continue;
                     rays++;
-                    float light = (float)density;
-                    if (v_near > h->v && !nothing_between(stack, x, y, h, px_per_dioptre))
-                        light *= visible(stack, x, y, line, h, v_near, px_per_dioptre);
+                    const float light =
+                        (float)density * wo_highlight_seen(h, stack, lens, x, y, line, v_near);
                     float *sum = sums[y - tile.y1][x - tile.x1];
                     for (int k = 0; k < 3; k++)
                         sum[k] += light * h->c[k];

@@ -9,8 +9,10 @@
 /* Highlights: small, very bright pixels. Lens rays find them rarely, which shows as noise and torn
    edges of their discs. The part of their light above WO_HIGHLIGHT_LEVEL is taken out of the sheets
    and joined to each output pixel by the one ray that connects them, if nothing is in between: no
-   noise, exact energy. (Sampling the lights in place of the lens, as path tracers do.) */
-#define WO_HIGHLIGHT_LEVEL 4.0f /* scene-linear; 1 is diffuse white */
+   noise, exact energy. (Sampling the lights in place of the lens, as path tracers do.) Of lenses
+   that do not know that ray the picture of each highlight is drawn (point_image.h). */
+#define WO_HIGHLIGHT_LEVEL 4.0f  /* scene-linear; 1 is diffuse white */
+#define WO_HIGHLIGHT_REST  0.25f /* what bright ones keep whose picture is drawn */
 /* px of blur: smaller is left to the rays, and from WHOLE on no light above the level is; between,
    a part that rises smoothly. */
 #define WO_HIGHLIGHT_FROM  1.0
@@ -30,18 +32,33 @@ typedef struct wo_highlight {
 typedef struct wo_highlights {
     wo_highlight *list; /* sorted by tile row */
     size_t count;
-    float reach;   /* largest */
-    wo_rect tiles; /* in units of tiles, absolute */
-    size_t *first; /* [tiles + 1] */
+    float reach;      /* largest */
+    wo_rect tiles;    /* in units of tiles, absolute */
+    size_t *first;    /* [tiles + 1] */
+    wo_rect drawn;    /* px; whole tiles */
+    float (*glow)[3]; /* [h][w] of drawn: all their light; NULL = not drawn, or nothing to draw */
 } wo_highlights;
 
 /* Takes the highlights within area, on the grid of tiles, out of the sheets, which must also hold
-   one tile more on all sides, as far as the extent goes. Does nothing for lenses that cannot
-   connect. */
+   one tile more on all sides, as far as the extent goes. Does nothing for lenses that neither
+   connect nor know their iris. */
 WO_NODISCARD wo_status wo_highlights_take(const wo_context *context, wo_sheet *sheets, size_t count,
                                           wo_rect area, const wo_lens *lens,
                                           wo_highlights *highlights, wo_error *error);
 void wo_highlights_destroy(const wo_context *context, wo_highlights *highlights);
+
+/* For lenses that do not connect; does nothing for others. Draws the highlights, with what hides
+   them in the stack, over the tiles that touch window. WO_ABORTED when stopped. */
+WO_NODISCARD wo_status wo_highlights_draw(const wo_context *context, wo_highlights *highlights,
+                                          const wo_stack *stack, const wo_lens *lens,
+                                          wo_rect window, wo_error *error);
+
+/* Part of a highlight's light that gets to pixel (x, y) along the line p(v) - (x, y) = line[0..1] +
+   line[2..3] v. v_near: no surface on the way is nearer. */
+float wo_highlight_seen(const wo_highlight *highlight, const wo_stack *stack, const wo_lens *lens,
+                        int32_t x, int32_t y, const double line[4], float v_near);
+/* Vergence from which on a surface can hide it. */
+float wo_highlight_hidden_from(const wo_highlight *highlight, const wo_lens *lens);
 
 /* Adds their light to the pixels of one tile: sums[y][x][rgb]. v_near: nearest surface of the
    tile's footprint. Returns the number of connecting rays. */

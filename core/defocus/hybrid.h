@@ -34,12 +34,14 @@ enum {
     WO_HYBRID_REST = WO_HYBRID_FAR + WO_PART_SUMS, /* r g b a of what is neither */
     WO_HYBRID_LEFT = WO_HYBRID_REST + 4,           /* light that nothing stopped */
     WO_HYBRID_GUESSED,
-    WO_HYBRID_NOISE, /* near, far, rest: square of half the difference between the halves of the
-                        rays, in roots of light (wo_hybrid_scale) */
-    WO_HYBRID_JITTER = WO_HYBRID_NOISE + 3, /* the same of near and far together */
-    WO_HYBRID_OPEN,                         /* of all ... */
+    WO_HYBRID_NOISE,                        /* near, far, rest: variance, in roots of light
+                                               (wo_hybrid_scale) */
+    WO_HYBRID_JITTER = WO_HYBRID_NOISE + 3, /* of near and far together: square of half the
+                                               difference between the halves of the rays */
+    WO_HYBRID_OPEN,                         /* the same of all ... */
     WO_HYBRID_SHOWN,                        /* ... and of the displayed value */
-    WO_HYBRID_PLANES
+    WO_HYBRID_LIGHT, /* red, green, blue of highlights, on top; only where the scene has some */
+    WO_HYBRID_PLANES = WO_HYBRID_LIGHT + 3
 };
 
 enum { WO_HYBRID_CELL = 8, WO_HYBRID_TAPS_MAX = 64, WO_HYBRID_KERNELS = 33 };
@@ -68,8 +70,9 @@ void wo_hybrid_kernels(wo_hybrid_kernel kernels[WO_HYBRID_KERNELS]);
 /* Of a cell of 8 x 8 px and those around it. */
 typedef struct wo_hybrid_cell {
     uint8_t near, far; /* kernels */
-    float noise[3];    /* means of WO_HYBRID_NOISE, for all rays */
-    float shown;       /* the displayed value has so many times the noise */
+    float noise[3];    /* of this cell alone: mean variances of near, far, rest */
+    float around[2];   /* the same of near and far, with the cells around */
+    float shown;       /* the displayed value has so many times the variance */
     float jitter;      /* of this cell alone: variance that smoothing may take away */
 } wo_hybrid_cell;
 
@@ -103,28 +106,30 @@ bool wo_hybrid_trace(wo_hybrid *hybrid, int32_t tx, int32_t ty, wo_report *part)
 /* Chooses the kernels of a row of cells from the planes. */
 void wo_hybrid_choose(wo_hybrid *hybrid, int32_t row);
 
-/* Puts the parts of one tile together. noise: mean square of the expected error of each of its
-   cells, in roots of light; shown: the displayed value has so many times as much. */
+/* Expected squares of errors of a cell, in roots of light. */
 typedef struct wo_hybrid_noise {
-    float noise[WO_TILE_WIDTH / WO_HYBRID_CELL], shown[WO_TILE_WIDTH / WO_HYBRID_CELL];
+    float noise, lost; /* variance; detail that was smoothed away */
+    float shown;       /* the displayed value has so many times as much; NAN = nothing is known */
 } wo_hybrid_noise;
+
+/* Puts the parts of one tile together, without the highlights' light. noise: of each of its cells.
+ */
 void wo_hybrid_join(const wo_hybrid *hybrid, int32_t tx, int32_t ty, wo_tile_pixels *pixels,
-                    wo_tile_facts *facts, wo_hybrid_noise *noise);
+                    wo_tile_facts *facts, wo_hybrid_noise noise[WO_TILE_WIDTH / WO_HYBRID_CELL]);
 
 /* How a cell leans on the filter. */
 typedef struct wo_hybrid_lean {
     bool known;     /* false: the picture of the rays stands as it is */
     float shift[4]; /* mean difference of rays and filter, times wo_hybrid_scale */
     float keep;     /* part of the difference's detail that is not noise */
-    float error;    /* square of the expected error */
+    float error;    /* square of the expected error, displayed; NAN = not known */
 } wo_hybrid_lean;
 
-/* rays, filtered: rows of the two pictures of one cell. noise: the expected square of the error of
-   the rays' picture, mean of the cell, in roots of light, as the error will be. Differences are
-   scaled by what the filter shows, so that a lamp does not show in the mean of its cell, and noise
-   does not pull the mean down. */
+/* rays, filtered: rows of the two pictures of one cell. noise: expected errors of the rays'
+   picture. Differences are scaled by what the filter shows, so that a lamp does not show in the
+   mean of its cell, and noise does not pull the mean down. */
 void wo_hybrid_lean_on(float (*const rays[WO_HYBRID_CELL])[4],
-                       float (*const filtered[WO_HYBRID_CELL])[4], float noise,
+                       float (*const filtered[WO_HYBRID_CELL])[4], const wo_hybrid_noise *noise,
                        wo_hybrid_lean *lean);
 
 /* One pixel, of which rays and filtered are the two pictures. around[y][x]: its cell in the middle

@@ -8,7 +8,7 @@
 
 /* Of the variance of noise smoothing leaves more than one part in as many as there are taps:
    neighbours share rays, and a little detail moves. Measured on footage. */
-#define SMOOTH_LEAVES 2.0f
+#define SMOOTH_LEAVES 1.3f
 #define SMOOTH_MOVES  0.02f
 
 /* Below this light is black. */
@@ -99,52 +99,56 @@ static int32_t clamp_to(int32_t x, int32_t from, int32_t to)
     return x < from ? from : x >= to ? to - 1 : x;
 }
 
+/* Sum of a plane over a cell. */
+static double sum_of(const wo_hybrid *h, int plane, int32_t column, int32_t row)
+{
+    const float *const at = h->plane[plane] + cell_origin(h, column, row);
+    double sum = 0;
+    for (int y = 0; y < WO_HYBRID_CELL; y++)
+        for (int x = 0; x < WO_HYBRID_CELL; x++)
+            sum += (double)at[y * h->width + x];
+    return sum;
+}
+
 void wo_hybrid_choose(wo_hybrid *h, int32_t row)
 {
+    enum { NEAR, NEAR_BLUR, FAR, FAR_BLUR, NEAR_NOISE, FAR_NOISE, OPEN, SHOWN, SUMS };
     /* Green stands for all colours. */
-    static const int sums[] = {WO_HYBRID_NEAR + WO_PART_COVERAGE + 1,
-                               WO_HYBRID_NEAR + WO_PART_BLUR,
-                               WO_HYBRID_FAR + WO_PART_COVERAGE + 1,
-                               WO_HYBRID_FAR + WO_PART_BLUR,
-                               WO_HYBRID_NOISE + 0,
-                               WO_HYBRID_NOISE + 1,
-                               WO_HYBRID_NOISE + 2,
-                               WO_HYBRID_OPEN,
-                               WO_HYBRID_SHOWN};
-    enum { SUMS = sizeof sums / sizeof sums[0] };
+    static const int planes[SUMS] = {WO_HYBRID_NEAR + WO_PART_COVERAGE + 1,
+                                     WO_HYBRID_NEAR + WO_PART_BLUR,
+                                     WO_HYBRID_FAR + WO_PART_COVERAGE + 1,
+                                     WO_HYBRID_FAR + WO_PART_BLUR,
+                                     WO_HYBRID_NOISE + 0,
+                                     WO_HYBRID_NOISE + 1,
+                                     WO_HYBRID_OPEN,
+                                     WO_HYBRID_SHOWN};
+    const double cell_pixels = WO_HYBRID_CELL * WO_HYBRID_CELL;
     for (int32_t column = 0; column < h->columns; column++) {
         double sum[SUMS] = {0};
         int cells = 0;
-        double own = 0;
         const wo_rect view = wo_hybrid_view(h, column, row);
         for (int32_t b = row - 1; b <= row + 1; b++) {
             for (int32_t a = column - 1; a <= column + 1; a++) {
                 if (a < view.x1 || b < view.y1 || a >= view.x2 || b >= view.y2)
                     continue;
-                const ptrdiff_t at = cell_origin(h, a, b);
                 cells++;
                 for (int s = 0; s < SUMS; s++)
-                    for (int y = 0; y < WO_HYBRID_CELL; y++)
-                        for (int x = 0; x < WO_HYBRID_CELL; x++)
-                            sum[s] += (double)h->plane[sums[s]][at + y * h->width + x];
-                if (a == column && b == row)
-                    for (int y = 0; y < WO_HYBRID_CELL; y++)
-                        for (int x = 0; x < WO_HYBRID_CELL; x++)
-                            own += (double)h->plane[WO_HYBRID_JITTER][at + y * h->width + x];
+                    sum[s] += sum_of(h, planes[s], a, b);
             }
         }
         wo_hybrid_cell *const cell = &h->cells[(ptrdiff_t)row * h->columns + column];
         const double rays =
             (double)
                 h->rays[row * wo_rect_width(h->tiles) + column * WO_HYBRID_CELL / WO_TILE_WIDTH];
-        cell->near = (uint8_t)wo_hybrid_kernel_for(h, true, rays, sum[0], sum[1]);
-        cell->far = (uint8_t)wo_hybrid_kernel_for(h, false, rays, sum[2], sum[3]);
-        cell->jitter = (float)(WO_HALVES_TO_ERROR * WO_HALVES_TO_ERROR * own /
-                               (WO_HYBRID_CELL * WO_HYBRID_CELL));
+        cell->near = (uint8_t)wo_hybrid_kernel_for(h, true, rays, sum[NEAR], sum[NEAR_BLUR]);
+        cell->far = (uint8_t)wo_hybrid_kernel_for(h, false, rays, sum[FAR], sum[FAR_BLUR]);
+        cell->jitter = (float)(WO_HALVES_TO_ERROR * WO_HALVES_TO_ERROR *
+                               sum_of(h, WO_HYBRID_JITTER, column, row) / cell_pixels);
         for (int n = 0; n < 3; n++)
-            cell->noise[n] = (float)(WO_HALVES_TO_ERROR * WO_HALVES_TO_ERROR * sum[4 + n] /
-                                     (cells * WO_HYBRID_CELL * WO_HYBRID_CELL));
-        cell->shown = sum[7] > 0 ? (float)(sum[8] / sum[7]) : 1;
+            cell->noise[n] = (float)(sum_of(h, WO_HYBRID_NOISE + n, column, row) / cell_pixels);
+        for (int n = 0; n < 2; n++)
+            cell->around[n] = (float)(sum[NEAR_NOISE + n] / (cells * cell_pixels));
+        cell->shown = sum[OPEN] > 0 ? (float)(sum[SHOWN] / sum[OPEN]) : 1;
     }
 }
 
@@ -298,9 +302,14 @@ static void add_up_smooth(const wo_hybrid *h, const wo_hybrid_cell *cell, int32_
 /* The estimate of noise in one cell may be too small by this. */
 #define JITTER_TRUST 4.0f
 
+/* Of what smoothing moves more than noise explains (as many times its estimate), so much is detail
+   that is lost: an error of its own. Measured on footage. */
+#define DETAIL_FROM 3.0f
+#define DETAIL_LOST 0.7f
+
 /* Smoothing takes noise away, and detail. Their sum is what it moves; the part of it that noise
-   explains is taken (James and Stein 1961). */
-static float part_of_noise(const wo_hybrid_cell *cell, colours own, colours smoothed)
+   explains is taken (James and Stein 1961). *lost: mean square of the detail that goes with it. */
+static float part_of_noise(const wo_hybrid_cell *cell, colours own, colours smoothed, float *lost)
 {
     float moved = 0;
     for (int y = 0; y < WO_HYBRID_CELL; y++) {
@@ -313,15 +322,30 @@ static float part_of_noise(const wo_hybrid_cell *cell, colours own, colours smoo
     }
     moved *= 1.0f / (3 * WO_HYBRID_CELL * WO_HYBRID_CELL);
     const float noise = JITTER_TRUST * cell->jitter;
-    return moved <= noise ? 1 : noise / moved;
+    const float part = moved <= noise ? 1 : noise / moved;
+    *lost = DETAIL_LOST * part * part * fmaxf(moved - DETAIL_FROM * cell->jitter, 0);
+    return part;
+}
+
+/* Variance of a pixel of which a part is smoothed: what is left of its own noise, and the mean of
+   the noise around, of which the pixel's own is one in as many as there are taps. */
+static float noise_left(const wo_hybrid_kernel *k, float part, float own, float around)
+{
+    if (k->count <= 1)
+        return own;
+    const float rest = 1 - part;
+    return own * rest * (rest + 2 * part / (float)k->count) + around * part * part * k->gain;
 }
 
 void wo_hybrid_join(const wo_hybrid *h, int32_t tx, int32_t ty, wo_tile_pixels *pixels,
-                    wo_tile_facts *facts, wo_hybrid_noise *noise)
+                    wo_tile_facts *facts, wo_hybrid_noise noise[WO_TILE_WIDTH / WO_HYBRID_CELL])
 {
     const size_t tile =
         (size_t)(ty - h->tiles.y1) * (size_t)wo_rect_width(h->tiles) + (size_t)(tx - h->tiles.x1);
     const int32_t low = ty * WO_TILE_HEIGHT - h->area.y1;
+    /* One ray where many are wanted says nothing of its error. */
+    const bool known =
+        h->rays[tile] != 1 || wo_ray_tile_straight(wo_lens_rays_at(h->scene->rays, tx, ty));
     for (int32_t x0 = 0; x0 < WO_TILE_WIDTH; x0 += WO_HYBRID_CELL) {
         const int32_t left = tx * WO_TILE_WIDTH - h->area.x1 + x0;
         const wo_hybrid_cell *const cell =
@@ -330,15 +354,17 @@ void wo_hybrid_join(const wo_hybrid *h, int32_t tx, int32_t ty, wo_tile_pixels *
         colours smoothed;
         add_up(h, left, low, own);
         float part = 0;
+        float lost = 0;
         if (cell->near > 0 || cell->far > 0) {
             add_up_smooth(h, cell, left, low, smoothed);
-            part = part_of_noise(cell, own, smoothed);
+            part = part_of_noise(cell, own, smoothed, &lost);
         }
-        const float near = 1 - part * (1 - h->kernels[cell->near].gain);
-        const float far = 1 - part * (1 - h->kernels[cell->far].gain);
-        noise->noise[x0 / WO_HYBRID_CELL] =
-            cell->noise[0] * near + cell->noise[1] * far + cell->noise[2];
-        noise->shown[x0 / WO_HYBRID_CELL] = cell->shown;
+        noise[x0 / WO_HYBRID_CELL] = (wo_hybrid_noise){
+            .noise = noise_left(&h->kernels[cell->near], part, cell->noise[0], cell->around[0]) +
+                     noise_left(&h->kernels[cell->far], part, cell->noise[1], cell->around[1]) +
+                     cell->noise[2],
+            .lost = lost,
+            .shown = known ? cell->shown : NAN};
         for (int y = 0; y < WO_HYBRID_CELL; y++) {
             for (int x = 0; x < WO_HYBRID_CELL; x++) {
                 float *const c = pixels->c[y][x0 + x];

@@ -10,9 +10,8 @@
 #define NOISE_TRUST 1.5f
 /* Noise in the mean of a cell: its pixels share rays, so it is more than 1/64. */
 #define MEAN_NOISE 0.0625f
-/* Of the variance of noise, what is in the picture though keep says none: keep itself is an
-   estimate. Measured on footage. */
-#define LEFT_OVER 0.15f
+/* Of the variance of noise, what the mean of a cell has. Measured on footage. */
+#define LEFT_OVER 0.2f
 
 static float scale_of(const float filtered[4], int k)
 {
@@ -31,7 +30,7 @@ static float part_over(float variance, float noise)
 }
 
 void wo_hybrid_lean_on(float (*const rays[WO_HYBRID_CELL])[4],
-                       float (*const filtered[WO_HYBRID_CELL])[4], float noise,
+                       float (*const filtered[WO_HYBRID_CELL])[4], const wo_hybrid_noise *noise,
                        wo_hybrid_lean *lean)
 {
     enum { PIXELS = WO_HYBRID_CELL * WO_HYBRID_CELL };
@@ -52,11 +51,15 @@ void wo_hybrid_lean_on(float (*const rays[WO_HYBRID_CELL])[4],
                                      wo_hybrid_scale(filtered[y][x][k]) -
                                  lean->shift[k]);
     detail *= 1.0f / (3 * PIXELS);
-    lean->keep = part_over(detail, NOISE_TRUST * noise);
-    const float shift = part_over(shifted, MEAN_NOISE * noise);
+    lean->keep = part_over(detail, NOISE_TRUST * noise->noise);
+    const float shift = part_over(shifted, MEAN_NOISE * noise->noise);
     for (int k = 0; k < 4; k++)
         lean->shift[k] *= shift;
-    lean->error = noise * (lean->keep + LEFT_OVER * (1 - lean->keep));
+    /* What noise is kept, and what is not noise and lost. */
+    const float lost = fmaxf(detail - noise->noise, 0);
+    const float gone = 1 - lean->keep;
+    lean->error = noise->shown * ((lean->keep * lean->keep + LEFT_OVER) * noise->noise +
+                                  gone * gone * lost + lean->keep * noise->lost);
 }
 
 /* Shift and keep between the cells. */

@@ -7,8 +7,12 @@
 #include <string.h>
 
 /* Near, far, rest, jitter, open, shown. */
-enum { JITTER = WO_HYBRID_JITTER - WO_HYBRID_NOISE, OPEN, SHOWN };
-enum { NOISES = WO_HYBRID_PLANES - WO_HYBRID_NOISE };
+enum {
+    JITTER = WO_HYBRID_JITTER - WO_HYBRID_NOISE,
+    OPEN,
+    SHOWN,
+    NOISES = WO_HYBRID_LIGHT - WO_HYBRID_NOISE
+};
 
 /* One pixel of sums, each part divided by the light of its colour. */
 typedef struct split {
@@ -72,11 +76,10 @@ static void noise_of(const split *all, const split *a, const split *b, float noi
         const float near = a->near[k] - b->near[k] - behind * (a->near[a_k] - b->near[a_k]);
         const float far = a->far[k] - b->far[k] - beyond * (a->far[a_k] - b->far[a_k]);
         const float scale = 0.5f * wo_hybrid_scale(all->c[k]);
-        const float shown = 0.5f * wo_shown(a->c[k], b->c[k]);
         const float open = a->c[k] - b->c[k];
-        const float d[6] = {near, far, open - near - far, near + far, open, open};
-        for (int n = 0; n < NOISES; n++) {
-            const float e = (n == SHOWN ? shown : scale) * d[n];
+        const float d[SHOWN] = {near, far, open - near - far, near + far, open};
+        for (int n = 0; n < SHOWN; n++) {
+            const float e = scale * d[n];
             noise[n] += e * e * (1.0f / 3);
         }
     }
@@ -105,33 +108,42 @@ static void put(wo_hybrid *h, ptrdiff_t at, const split *s, float guessed,
         h->plane[WO_HYBRID_NOISE + n][at] = noise[n];
 }
 
+/* A tile, looked at. */
+typedef struct looked {
+    const wo_hybrid *hybrid;
+    wo_tile_light light;
+    split all[WO_TILE_HEIGHT][WO_TILE_WIDTH];
+    float noise[WO_TILE_HEIGHT][WO_TILE_WIDTH][NOISES];
+    float factor; /* to variances */
+} looked;
+
 /* The parts of a pixel, and what its halves say of their noise. */
-static void look_at(const wo_tile_work *work, const wo_tile_sums *sums, int32_t row, int run_index,
-                    int i, split *all, float noise[NOISES])
+static void look_at(looked *seen, const wo_tile_work *work, const wo_tile_sums *sums, int32_t row,
+                    int x, wo_noise *tile)
 {
+    const int run_index = x % WO_PHASES;
+    const int i = x / WO_PHASES;
     const wo_march_sums *const halves = sums->halves[row][run_index];
     wo_march_sums both = halves[0];
     wo_march_add(&both, &halves[1]);
+    split *const all = &seen->all[row][x];
+    float *const noise = seen->noise[row][x];
     split half[2];
     memset(noise, 0, NOISES * sizeof *noise);
     if (split_pixel(work, &both, row, run_index, i, all) && sums->rays > 1 &&
         split_pixel(work, &halves[0], row, run_index, i, &half[0]) &&
-        split_pixel(work, &halves[1], row, run_index, i, &half[1]))
+        split_pixel(work, &halves[1], row, run_index, i, &half[1])) {
         noise_of(all, &half[0], &half[1], noise);
+        noise[SHOWN] = wo_noise_add(tile, half[0].c, half[1].c, seen->light[row][x]);
+    }
 }
-
-/* A tile, looked at. */
-typedef struct looked {
-    const wo_hybrid *hybrid;
-    split all[WO_TILE_HEIGHT][WO_TILE_WIDTH];
-    float noise[WO_TILE_HEIGHT][WO_TILE_WIDTH][NOISES];
-} looked;
 
 /* What smoothing will leave of the noise, as far as this tile can tell. */
 static double error_of(void *user, const wo_tile_work *work, const wo_tile_sums *sums)
 {
     looked *const seen = user;
     const wo_hybrid *h = seen->hybrid;
+    wo_noise tile = {0};
     double total = 0;
     for (int x0 = 0; x0 < WO_TILE_WIDTH; x0 += WO_HYBRID_CELL) {
         double noise[NOISES] = {0};
@@ -139,9 +151,9 @@ static double error_of(void *user, const wo_tile_work *work, const wo_tile_sums 
         double far[2] = {0};
         for (int32_t row = 0; row < WO_TILE_HEIGHT; row++) {
             for (int x = x0; x < x0 + WO_HYBRID_CELL; x++) {
-                split *const s = &seen->all[row][x];
-                float *const one = seen->noise[row][x];
-                look_at(work, sums, row, x % WO_PHASES, x / WO_PHASES, s, one);
+                look_at(seen, work, sums, row, x, &tile);
+                const split *const s = &seen->all[row][x];
+                const float *const one = seen->noise[row][x];
                 for (int n = 0; n < NOISES; n++)
                     noise[n] += (double)one[n];
                 near[0] += (double)mean_coverage(s->near);
@@ -156,7 +168,8 @@ static double error_of(void *user, const wo_tile_work *work, const wo_tile_sums 
         total += shown * (noise[0] * (double)h->kernels[near_kernel].gain +
                           noise[1] * (double)h->kernels[far_kernel].gain + noise[2]);
     }
-    return total / (WO_TILE_WIDTH * WO_TILE_HEIGHT);
+    seen->factor = (float)wo_noise_factor(&tile);
+    return (double)seen->factor * total / (WO_TILE_WIDTH * WO_TILE_HEIGHT);
 }
 
 bool wo_hybrid_trace(wo_hybrid *h, int32_t tx, int32_t ty, wo_report *part)
@@ -178,6 +191,7 @@ bool wo_hybrid_trace(wo_hybrid *h, int32_t tx, int32_t ty, wo_report *part)
     }
     looked seen;
     seen.hybrid = h;
+    const bool lit = wo_tile_find_light(scene, tx, ty, seen.light, part);
     if (!wo_tile_sample(scene, &work, error_of, &seen, &sums, part))
         return false;
     h->rays[tile] = (float)sums.rays;
@@ -186,10 +200,14 @@ bool wo_hybrid_trace(wo_hybrid *h, int32_t tx, int32_t ty, wo_report *part)
             const int run_index = x % WO_PHASES;
             const int i = x / WO_PHASES;
             const wo_march_sums *const halves = sums.halves[row][run_index];
+            for (int n = 0; n < JITTER; n++)
+                seen.noise[row][x][n] *= seen.factor;
             put(h, origin + row * h->width + x, &seen.all[row][x],
                 fminf(fmaxf((halves[0].guessed[i] + halves[1].guessed[i]) / (float)sums.scale, 0),
                       1),
                 seen.noise[row][x]);
+            for (int k = 0; lit && k < 3; k++)
+                h->plane[WO_HYBRID_LIGHT + k][origin + row * h->width + x] = seen.light[row][x][k];
         }
     }
     return true;

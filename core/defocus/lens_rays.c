@@ -51,7 +51,8 @@ typedef struct survey {
 } survey;
 
 /* Bounds narrow the reach, the reach narrows the bounds, for each sheet by itself (Lee et al. 2010,
-   "Bounding the Footprint": three rounds are enough). */
+   "Bounding the Footprint"), until nothing changes any more: so what comes out does not depend on
+   max_reach, which depends on the window. */
 static void find_bounds(const wo_lens_rays *rays, double max_reach, survey *found,
                         wo_ray_tile *tile)
 {
@@ -59,11 +60,12 @@ static void find_bounds(const wo_lens_rays *rays, double max_reach, survey *foun
     for (int s = 0; s < rays->stack->sheets; s++) {
         wo_bounds *const bounds = &tile->bounds[s];
         double *const reach = &found->reach[s];
+        double last = INFINITY;
         *reach = max_reach;
-        for (int round = 0; round < 3; round++) {
+        while (ceil(*reach) < last) {
+            last = ceil(*reach);
             found->flags[s] = 0;
-            *bounds =
-                wo_stack_bounds(rays->stack, s, reached(found->rect, *reach), &found->flags[s]);
+            *bounds = wo_stack_bounds(rays->stack, s, reached(found->rect, last), &found->flags[s]);
             if (bounds->v_min > bounds->v_max)
                 break;
             *reach = fmin(*reach, lens->reach(lens->self, bounds->v_min, bounds->v_max));
@@ -190,8 +192,7 @@ static wo_march_view view_of(const wo_lens_rays *rays, const wo_ray_tile *tile)
     wo_march_view view = {.opaque = stack->opaque,
                           .run = stack->run,
                           .row = stack->row,
-                          .span_columns = stack->cell_columns,
-                          .v_connect = (float)(WO_CONNECT_PX / rays->lens->px_per_dioptre)};
+                          .span_columns = stack->cell_columns};
     for (int s = 0; s < stack->sheets; s++) {
         if (tile->bounds[s].v_min > tile->bounds[s].v_max)
             continue;

@@ -11,13 +11,14 @@
    A ray walks along its footprint, the line p(v) from the nearest vergence to the farthest, one
    pixel of its longer axis at a time, and looks at every sheet at once. The patch of a pixel is
    hit where the ray, at the patch's vergence, is within half a pixel of it, or where it passed from
-   before to behind a surface that is connected (no step of more than WO_CONNECT_PX). The nearest
-   hit comes first; coverage below 1 lets the rest of the light through. Light that is left where
-   the scene is opaque saw something that no sheet holds: the ray counts only as far as it was
-   stopped. */
+   before to behind a surface that is connected: no step that is more than WO_CONNECT_PX for this
+   ray. So a surface whose blur grows is let go of by one ray after the other, those through the
+   rim of the lens first, and nothing pops. The nearest hit comes first; coverage below 1 lets the
+   rest of the light through. Light that is left where the scene is opaque saw something that no
+   sheet holds: the ray counts only as far as it was stopped. */
 #define WO_CONNECT_PX 1.5f
-/* Up to so many px from the pixel itself, colours are interpolated between pixels; farther out the
-   blur hides the difference. */
+/* Up to so many px from the pixel itself, colours are interpolated between pixels that are
+   connected for the ray; farther out the blur hides the difference. */
 #define WO_SMOOTH_PX 4
 /* Light below this fraction is not followed further. */
 #define WO_LIGHT_MIN (1.0f / 1024)
@@ -33,9 +34,8 @@ typedef struct wo_march_view {
     wo_bounds bounds[WO_SHEETS_MAX]; /* of each sheet over the footprint of the tile */
     const wo_span *spans[WO_SHEETS_MAX];
     int32_t span_columns;
-    float v_connect; /* dioptres: neighbours closer than this are one surface */
-    float v_apart;   /* dioptres, > 0: surfaces nearer than this, or farther than minus this, are
-                        summed apart as well */
+    float v_apart; /* dioptres, > 0: surfaces nearer than this, or farther than minus this, are
+                      summed apart as well */
 } wo_march_view;
 
 /* Red, green, blue; the coverage that each of them met; coverage over the distance from the focus

@@ -51,11 +51,11 @@ WO_SIMD ptrdiff_t place(const wo_march_view *view, int32_t x, int32_t y, int run
 
 /* Colour of sheet s around the pixels at (dx, dy), at the fractions (tx, ty) beside their centres:
    Dodgson's quadratic interpolation (1997). Neighbours on another surface lend the pixel's own
-   colour; joined = there are none. Beside a change of coverage it overshoots 0..1: colour and
-   coverage do so together, which keeps every sum over the ray right; cut, one colour would not stay
-   one colour. */
+   colour: those more than *limit dioptres away; NULL = there are none. Beside a change of coverage
+   it overshoots 0..1: colour and coverage do so together, which keeps every sum over the ray right;
+   cut, one colour would not stay one colour. */
 WO_SIMD void sample_smooth(const wo_march_view *view, int s, int32_t x, int32_t y, int run_index,
-                           int dx, int dy, vf tx, vf ty, bool joined, vf out[4])
+                           int dx, int dy, vf tx, vf ty, const float *limit, vf out[4])
 {
     const vf half = v_set(0.5f);
     const vf one = v_set(1);
@@ -68,7 +68,7 @@ WO_SIMD void sample_smooth(const wo_march_view *view, int s, int32_t x, int32_t 
         column[a] = place(view, x, y, run_index, dx + a - 1, dy);
     const ptrdiff_t centre = column[1];
     const vf v = v_load(view->v[s] + centre);
-    const vf limit = v_set(view->v_connect);
+    const vf most = v_set(limit ? *limit : 0);
     vf own = v_mul(wx[1], wy[1]);
     for (int k = 0; k < 4; k++)
         out[k] = v_set(0);
@@ -79,9 +79,9 @@ WO_SIMD void sample_smooth(const wo_march_view *view, int s, int32_t x, int32_t 
             const ptrdiff_t at = column[a] + (b - 1) * view->row;
             const vf w = v_mul(wx[a], wy[b]);
             vf here = w;
-            if (!joined) {
+            if (limit) {
                 const vf away = v_abs(v_sub(v_load(view->v[s] + at), v));
-                here = v_mask(v_less_equal(away, limit), w);
+                here = v_mask(v_less_equal(away, most), w);
                 own = v_add(own, v_sub(w, here));
             }
             for (int k = 0; k < 4; k++)
@@ -195,8 +195,9 @@ typedef struct way {
     line l;
     int dir;
     int first, last;
-    float base; /* the step of a surface at vergence v is base - fall v */
-    float fall; /* >= 0 */
+    float base;    /* the step of a surface at vergence v is base - fall v */
+    float fall;    /* >= 0 */
+    float connect; /* dioptres: neighbours closer than this are one surface for this ray */
     int from[WO_SHEETS_MAX], to[WO_SHEETS_MAX]; /* no surface of the sheet is met before or after */
 } way;
 
@@ -217,6 +218,7 @@ WO_SIMD way way_of(const wo_march_view *view, const wo_pencil *pencil, int n)
     w.dir = w.l.bm >= 0 ? -1 : 1;
     w.base = w.l.am * (float)w.dir;
     w.fall = fabsf(w.l.bm);
+    w.connect = WO_CONNECT_PX / fmaxf(w.fall, 1e-30f);
     w.first = INT_MAX;
     w.last = INT_MIN;
     for (int s = 0; s < view->sheets; s++) {
@@ -282,7 +284,7 @@ WO_SIMD void look_ahead(const wo_march_view *view, int32_t x, int32_t y, int run
         if (from > to)
             continue;
         out->sheet[out->count] = s;
-        out->joined[out->count] = b.step <= view->v_connect;
+        out->joined[out->count] = b.step <= w->connect;
         out->from[out->count] = from;
         out->to[out->count++] = to;
         out->first = from < out->first ? from : out->first;
@@ -313,8 +315,8 @@ WO_SIMD meeting meet_sheet(const float *plane, ptrdiff_t at, vf fall, vf origin,
 
 /* Colour at a meeting; at is the place of the pixels at step i (dx, dy from the ray's own). */
 WO_SIMD void colour_of(const wo_march_view *view, int s, int32_t x, int32_t y, int run_index,
-                       const way *w, int i, int j, ptrdiff_t at, const meeting *m, bool joined,
-                       vf c[4])
+                       const way *w, int i, int j, ptrdiff_t at, const meeting *m,
+                       const float *limit, vf c[4])
 {
     if (i > WO_SMOOTH_PX || i < -WO_SMOOTH_PX) {
         for (int k = 0; k < 4; k++)
@@ -327,9 +329,9 @@ WO_SIMD void colour_of(const wo_march_view *view, int s, int32_t x, int32_t y, i
     const vf across =
         v_fma(v_set(w->l.slope), t, v_set(w->l.n0 + w->l.slope * (float)i - (float)j));
     if (w->l.upright)
-        sample_smooth(view, s, x, y, run_index, j, i, across, t, joined, c);
+        sample_smooth(view, s, x, y, run_index, j, i, across, t, limit, c);
     else
-        sample_smooth(view, s, x, y, run_index, i, j, t, across, joined, c);
+        sample_smooth(view, s, x, y, run_index, i, j, t, across, limit, c);
 }
 
 /* What a vector's rays know on their way. */
@@ -361,9 +363,9 @@ WO_SIMD void travel_one(const wo_march_view *view, int32_t x, int32_t y, int run
             continue;
         vf c[4];
         if (part->joined[0])
-            colour_of(view, s, x, y, run_index, w, i, j, at, &m, true, c);
+            colour_of(view, s, x, y, run_index, w, i, j, at, &m, NULL, c);
         else
-            colour_of(view, s, x, y, run_index, w, i, j, at, &m, false, c);
+            colour_of(view, s, x, y, run_index, w, i, j, at, &m, &w->connect, c);
         meet(&t->r, m.mask, m.v, c, view->guessed[s], p);
         t->alive = v_less(v_set(WO_LIGHT_MIN), t->r.light);
         if (!m_any(t->alive))
@@ -400,7 +402,7 @@ WO_SIMD void travel_many(const wo_march_view *view, int32_t x, int32_t y, int ru
             h->mask = m.mask;
             h->v = m.v;
             h->sheet = s;
-            colour_of(view, s, x, y, run_index, w, i, j, at, &m, false, h->c);
+            colour_of(view, s, x, y, run_index, w, i, j, at, &m, &w->connect, h->c);
         }
         if (count == 0)
             continue;
@@ -605,9 +607,9 @@ static void single(const wo_march_view *view, int32_t x, int32_t y, int run_inde
             const vf t = v_fma(v_set(l.bm), v_load(view->v[0] + at), v_set(l.am - (float)i));
             const vf u = v_fma(v_set(l.slope), t, v_set(across - (float)j));
             if (l.upright)
-                sample_smooth(view, 0, x, y, run_index, dx, dy, u, t, true, c);
+                sample_smooth(view, 0, x, y, run_index, dx, dy, u, t, NULL, c);
             else
-                sample_smooth(view, 0, x, y, run_index, dx, dy, t, u, true, c);
+                sample_smooth(view, 0, x, y, run_index, dx, dy, t, u, NULL, c);
         } else {
             for (int k = 0; k < 4; k++)
                 c[k] = v_load(view->c[0][k] + at);

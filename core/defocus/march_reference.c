@@ -19,7 +19,7 @@ static ptrdiff_t place_of(const wo_march_view *view, int32_t x, int32_t y, int d
 }
 
 static void interpolate(const wo_march_view *view, int s, int32_t x, int32_t y, int dx, int dy,
-                        double tx, double ty, double c[4])
+                        double tx, double ty, double limit, double c[4])
 {
     const double wx[3] = {tx * tx - 0.5 * tx, 1 - 2 * tx * tx, tx * tx + 0.5 * tx};
     const double wy[3] = {ty * ty - 0.5 * ty, 1 - 2 * ty * ty, ty * ty + 0.5 * ty};
@@ -29,7 +29,7 @@ static void interpolate(const wo_march_view *view, int s, int32_t x, int32_t y, 
     for (int b = 0; b < 3; b++) {
         for (int a = 0; a < 3; a++) {
             ptrdiff_t at = place_of(view, x, y, dx + a - 1, dy + b - 1);
-            if (!(fabsf(view->v[s][at] - view->v[s][centre]) <= view->v_connect))
+            if (!(fabs((double)view->v[s][at] - (double)view->v[s][centre]) <= limit))
                 at = centre;
             for (int k = 0; k < 4; k++)
                 c[k] += wx[a] * wy[b] * (double)view->c[s][k][at];
@@ -70,6 +70,7 @@ static void trace(const wo_march_view *view, int32_t x, int32_t y, const wo_penc
         v_far = fmin(v_far, (double)view->bounds[s].v_min);
     }
     const int dir = bm >= 0 ? -1 : 1;
+    const double limit = (double)WO_CONNECT_PX / fmax(fabs(bm), 1e-30);
     const int last = (int)lrint(am + bm * v_far);
     double light = 1;
     double before[WO_SHEETS_MAX];
@@ -108,7 +109,7 @@ static void trace(const wo_march_view *view, int32_t x, int32_t y, const wo_penc
             if (abs(i) <= WO_SMOOTH_PX) {
                 const double beside = across - j + slope * at_t[h];
                 interpolate(view, s, x, y, dx, dy, upright ? beside : at_t[h],
-                            upright ? at_t[h] : beside, c);
+                            upright ? at_t[h] : beside, limit, c);
             } else {
                 for (int k = 0; k < 4; k++)
                     c[k] = (double)view->c[s][k][place_of(view, x, y, dx, dy)];

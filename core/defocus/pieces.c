@@ -10,8 +10,8 @@ typedef struct cut_job {
     const wo_stack *stack;  /* level 0 */
     const wo_pieces *finer; /* the others */
     const wo_lens *lens;
-    float v_connect;
-    size_t *first; /* [rows] pieces with surfaces: counted, then summed up */
+    float v_connect; /* the others */
+    size_t *first;   /* [rows] pieces with surfaces: counted, then summed up */
 } cut_job;
 
 static int32_t clamp(int32_t x, int32_t low, int32_t high)
@@ -92,7 +92,7 @@ static uint8_t opaque_in(const cut_job *job, int32_t column, int32_t row)
     return (uint8_t)(count == 0 ? 0 : 1 + (count == WO_PIECE_WIDTH * WO_PIECE_HEIGHT));
 }
 
-/* Which pieces hold anything: marked by their joined. */
+/* Which pieces hold anything: marked as full. */
 static void count_row(void *user, size_t index, unsigned worker)
 {
     (void)worker;
@@ -101,7 +101,7 @@ static void count_row(void *user, size_t index, unsigned worker)
     for (int s = 0; s < to->sheets; s++) {
         for (int32_t i = 0; i < to->columns; i++) {
             const bool used = is_used(job, s, i, (int32_t)index);
-            to->piece[s][index * (size_t)to->columns + (size_t)i].joined = used;
+            to->piece[s][index * (size_t)to->columns + (size_t)i].full = used;
             job->first[index] += used;
         }
     }
@@ -130,7 +130,7 @@ static bool is_solid(const cut_job *job, const float *plane, int at)
         const int beside = at + (i / 3 - 1) * WO_PIECE_ROW + i % 3 - 1;
         if (isinf(v[beside]))
             return false;
-        if (sharp && fabsf(v[beside] - v[at]) <= job->v_connect && !(alpha[beside] >= 1))
+        if (sharp && !isnan(v[beside]) && !(alpha[beside] >= 1))
             return false;
     }
     return true;
@@ -189,7 +189,7 @@ static void cut_piece(const cut_job *job, int s, int32_t column, int32_t row, fl
     bool gap = false;
     for (int at = 0; at < WO_PIECE_PLANE; at++)
         gap |= !(plane[WO_PIECE_ALPHA * WO_PIECE_PLANE + at] >= 1);
-    piece->joined = !gap && piece->high - piece->low <= job->v_connect;
+    piece->full = !gap;
 }
 
 static void cut_row(void *user, size_t index, unsigned worker)
@@ -201,7 +201,7 @@ static void cut_row(void *user, size_t index, unsigned worker)
     for (int s = 0; s < to->sheets; s++) {
         for (int32_t i = 0; i < to->columns; i++) {
             wo_piece *piece = &to->piece[s][index * (size_t)to->columns + (size_t)i];
-            const bool used = piece->joined;
+            const bool used = piece->full;
             *piece = (wo_piece){.v_min = INFINITY, .v_max = -INFINITY};
             if (!used)
                 continue;
@@ -232,8 +232,8 @@ static wo_status cut(const wo_context *context, cut_job *job, wo_error *error)
         count += here;
     }
     if (count > 0)
-        to->memory = wo_new_large(context, error, count,
-                                  WO_PIECE_PLANES * WO_PIECE_PLANE * sizeof *to->memory);
+        to->memory = wo_new_raw(context, error, count,
+                                WO_PIECE_PLANES * WO_PIECE_PLANE * sizeof *to->memory);
     if (to->memory)
         wo_run(context, cut_row, job, rows);
     wo_delete(context, job->first);
@@ -242,7 +242,7 @@ static wo_status cut(const wo_context *context, cut_job *job, wo_error *error)
 }
 
 wo_status wo_pieces_create(const wo_context *context, const wo_stack *stack, const wo_lens *lens,
-                           float v_connect, wo_pieces *pieces, wo_error *error)
+                           wo_pieces *pieces, wo_error *error)
 {
     *pieces = (wo_pieces){.x1 = stack->area.x1,
                           .y1 = stack->area.y1,
@@ -251,7 +251,7 @@ wo_status wo_pieces_create(const wo_context *context, const wo_stack *stack, con
                           .sheets = stack->sheets};
     for (int s = 0; s < stack->sheets; s++)
         pieces->guessed[s] = stack->guessed[s];
-    cut_job job = {.to = pieces, .stack = stack, .lens = lens, .v_connect = v_connect};
+    cut_job job = {.to = pieces, .stack = stack, .lens = lens};
     const wo_status status = cut(context, &job, error);
     if (status != WO_OK)
         wo_pieces_destroy(context, pieces);

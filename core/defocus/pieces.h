@@ -27,7 +27,7 @@ enum {
 };
 
 /* Solid: coverage 1, and no neighbour where no sheet has a surface; where the blur is small also no
-   neighbour on the same surface with coverage below 1, as colours are interpolated there. The other
+   neighbour on the same sheet with coverage below 1, as colours are interpolated there. The other
    pixels are thin. */
 #define WO_PIECE_SHARP_PX 6
 typedef struct wo_piece_row {
@@ -38,7 +38,7 @@ typedef struct wo_piece_row {
 typedef struct wo_piece {
     float v_min, v_max; /* of its solid pixels; v_min > v_max: none */
     float low, high;    /* of all its surfaces and those of the ring */
-    bool joined;        /* all of them are one surface of coverage 1 */
+    bool full;          /* there is one everywhere, of coverage 1 */
     uint8_t whole;      /* bit i: all pixels of cell i of the two that it covers are solid */
     uint8_t thin;       /* pixels that are thin */
     const float *plane; /* [WO_PIECE_PLANES][WO_PIECE_PLANE]; NULL = no surface */
@@ -72,12 +72,12 @@ typedef struct wo_pieces {
     float *memory;
 } wo_pieces;
 
-/* Level 0. v_connect: neighbours with vergences closer than that are one surface, dioptres. */
+/* Level 0. */
 WO_NODISCARD wo_status wo_pieces_create(const wo_context *context, const wo_stack *stack,
-                                        const wo_lens *lens, float v_connect, wo_pieces *pieces,
-                                        wo_error *error);
+                                        const wo_lens *lens, wo_pieces *pieces, wo_error *error);
 
-/* The next coarser level. A pixel whose four are not solid and one surface is left empty. */
+/* The next coarser level. A pixel whose four are not solid and one surface (vergences no more than
+   v_connect apart, dioptres) is left empty. */
 WO_NODISCARD wo_status wo_pieces_coarser(const wo_context *context, const wo_pieces *finer,
                                          float v_connect, wo_pieces *pieces, wo_error *error);
 void wo_pieces_destroy(const wo_context *context, wo_pieces *pieces);

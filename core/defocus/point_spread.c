@@ -3,6 +3,7 @@
 #include "defocus/point_spread.h"
 
 #include "defocus/lens_rays.h"
+#include "defocus/point_image.h"
 
 #include <math.h>
 #include <string.h>
@@ -121,88 +122,73 @@ static void raster_large(const wo_lens *lens, double v, double radius, double *c
     }
 }
 
-/* A box of this side about (ex, ey). */
-static void drop_box(const wo_point_raster *raster, int channel, double ex, double ey, double side,
-                     double light)
+/* Values of a row of an image that differ by no more than this part of the largest are one step. */
+#define IMAGE_NOISE (1.0 / 32)
+/* Rows that are drawn at a time. */
+enum { ROWS = 32 };
+
+/* Dots of an image on their way into a raster. */
+typedef struct dot_job {
+    const wo_point_raster *raster;
+    const double *colour;
+} dot_job;
+
+static void drop_dot(void *user, double x, double y, double light)
 {
-    const wo_rect r = raster->rect;
-    const double x1 = fmax(ex - 0.5 * side + 0.5, r.x1);
-    const double y1 = fmax(ey - 0.5 * side + 0.5, r.y1);
-    const double x2 = fmin(ex + 0.5 * side + 0.5, r.x2);
-    const double y2 = fmin(ey + 0.5 * side + 0.5, r.y2);
-    for (int32_t y = (int32_t)floor(y1); y < y2; y++)
-        for (int32_t x = (int32_t)floor(x1); x < x2; x++)
-            *value_at(raster, channel, x, y) += light / (side * side) *
-                                                (fmin(y2, y + 1.0) - fmax(y1, y)) *
-                                                (fmin(x2, x + 1.0) - fmax(x1, x));
-}
-
-/* Differences between pixels of a spread made of rays are chance up to this part of the largest. */
-#define RAY_NOISE (1.0 / 16)
-/* Rays for each pixel of a disc of the lens's reach, and at least. */
-enum { RAYS_A_PIXEL = 4, RAYS_LEAST = 4096 };
-
-/* Rays of a lens on their way into a raster. */
-typedef struct ray_job {
-    const wo_lens *lens;
-    double x, y, v;
-    wo_point_raster *raster;
-    wo_pencil_room *room;
-    double side;        /* of the box that a ray's light fills; 0 = only look */
-    double square, lit; /* of the rays: sum of squared offsets, count */
-} ray_job;
-
-static void add_set(ray_job *job, unsigned set)
-{
-    const wo_lens *lens = job->lens;
+    const dot_job *job = user;
     const int colours = job->raster->channels == 4 ? 3 : 1;
-    const double limit = job->raster->rect.x2 - 2;
-    for (int first = 0; first < lens->count; first += WO_PENCIL_PIECE) {
-        wo_pencil pencil;
-        lens->pencil(lens->self, job->x, job->y, set, first, job->room, &pencil);
-        for (int i = 0; i < pencil.count; i++) {
-            const double ex = -((double)pencil.ax[i] + (double)pencil.bx[i] * job->v);
-            const double ey = -((double)pencil.ay[i] + (double)pencil.by[i] * job->v);
-            bool any = false;
-            for (int k = 0; k < colours && fabs(ex) <= limit && fabs(ey) <= limit; k++) {
-                const double w = colours == 3 ? (double)pencil.weight[k][i] : 1;
-                any |= w > 0;
-                if (!(w > 0) || job->side == 0)
-                    continue;
-                if (fmax(fabs(ex), fabs(ey)) < SMOOTH_PX)
-                    drop(job->raster, k, ex, ey, w);
-                else
-                    drop_box(job->raster, k, ex, ey, job->side, w);
-            }
-            job->square += any ? ex * ex + ey * ey : 0;
-            job->lit += any;
-        }
-    }
+    for (int k = 0; k < colours; k++)
+        if (job->colour[k] > 0)
+            drop(job->raster, k, x, y, light * job->colour[k]);
 }
 
-static wo_status raster_rays(const wo_context *context, const wo_lens *lens, double x, double y,
-                             double v, wo_point_raster *raster, wo_error *error)
+static wo_status draw_image(const wo_context *context, const wo_lens *lens,
+                            const wo_point_image *image, wo_point_raster *raster, wo_error *error)
 {
-    ray_job job = {.lens = lens, .x = x, .y = y, .v = v, .raster = raster};
-    if (!(job.room = wo_new(context, error, 1, sizeof *job.room)))
-        return WO_ERR_NOMEM;
-    const double reach = lens->reach(lens->self, v, v);
-    wo_pencil pencil;
-    lens->pencil(lens->self, x, y, 0, 0, job.room, &pencil);
-    const wo_status status =
-        make(context, (int32_t)(reach + 0.5) + 2, pencil.weight[0] ? 4 : 1, raster, error);
-    if (status == WO_OK) {
-        const double wanted = fmax(RAYS_A_PIXEL * 3.14 * reach * reach, RAYS_LEAST) / lens->count;
-        const unsigned sets = wanted < lens->sets ? (unsigned)ceil(wanted) : lens->sets;
-        add_set(&job, 0);
-        /* A disc of radius r has a mean square of r^2 / 2; each ray has its share of the area. */
-        const double area = 6.28 * job.square / fmax(job.lit, 1);
-        job.side = fmax(1, sqrt(area / fmax(job.lit * sets, 1)));
-        for (unsigned set = 0; set < sets; set++)
-            add_set(&job, set);
-        raster->noise = RAY_NOISE;
+    const wo_rect r = image->rect;
+    const int32_t w = wo_rect_width(r);
+    double *room =
+        wo_new(context, error, wo_point_image_draw_room(lens, image->v, ROWS), sizeof *room);
+    wo_point_pixel *pixels = wo_new(context, error, (size_t)w * ROWS, sizeof *pixels);
+    for (int32_t y1 = r.y1; room && pixels && y1 < r.y2; y1 += ROWS) {
+        const int32_t y2 = y1 + ROWS < r.y2 ? y1 + ROWS : r.y2;
+        wo_point_image_draw(image, y1, y2, false, room, pixels);
+        const wo_point_pixel *p = pixels;
+        for (int32_t y = y1; y < y2; y++)
+            for (int32_t x = r.x1; x < r.x2; x++, p++)
+                for (int k = 0; k < (raster->channels == 4 ? 3 : 1); k++)
+                    *value_at(raster, k, x, y) = (double)p->light[k];
     }
-    wo_delete(context, job.room);
+    const bool done = room && pixels;
+    wo_delete(context, room);
+    wo_delete(context, pixels);
+    raster->noise = IMAGE_NOISE;
+    return done ? WO_OK : WO_ERR_NOMEM;
+}
+
+static wo_status raster_image(const wo_context *context, const wo_lens *lens, double x, double y,
+                              double v, wo_point_raster *raster, wo_error *error)
+{
+    float *memory = wo_new(context, error, wo_point_image_room(lens, v), sizeof *memory);
+    if (!memory)
+        return WO_ERR_NOMEM;
+    wo_point_image image;
+    wo_point_image_make(lens, x, y, v, memory, &image);
+    const wo_rect r = image.rect;
+    const int32_t sides[] = {-r.x1, -r.y1, r.x2 - 1, r.y2 - 1};
+    int32_t reach = 0;
+    for (int i = 0; i < 4; i++)
+        reach = sides[i] > reach ? sides[i] : reach;
+    /* Dots go to the neighbours of their pixel, too. */
+    wo_status status = make(context, reach + 1, lens->colours ? 4 : 1, raster, error);
+    if (status == WO_OK && lens->reach(lens->self, v, v) >= SMOOTH_PX)
+        status = draw_image(context, lens, &image, raster, error);
+    else
+        for (int line = 0; status == WO_OK && line < image.lines; line++) {
+            dot_job job = {raster, image.line_colour[line]};
+            wo_point_image_dots(&image, line, drop_dot, &job);
+        }
+    wo_delete(context, memory);
     return status;
 }
 
@@ -237,7 +223,7 @@ wo_status wo_point_raster_create(const wo_context *context, const wo_lens *lens,
     if (radius < WO_SHARP_PX) {
         status = make(context, 0, 1, raster, error);
     } else if (!lens->connect) {
-        status = raster_rays(context, lens, x, y, v, raster, error);
+        status = raster_image(context, lens, x, y, v, raster, error);
     } else {
         status = make(context, (int32_t)(radius + 0.5) + 1, 1, raster, error);
         if (status == WO_OK && radius <= SMALL_PX) {

@@ -20,8 +20,8 @@ typedef struct wo_point_raster {
 
 /* At the sensor point (x, y) px. Lenses with connect: its density, with the area that each pixel
    covers of it at the rim; near the source, weighted as march.h interpolates colours there, so that
-   it is smooth in v from radius 0 on. Other lenses: their own rays, all sets of them, each spread
-   over its share of the area. A blur below WO_SHARP_PX is none. Any thread. */
+   it is smooth in v from radius 0 on. Other lenses: their image of a point (point_image.h). A blur
+   below WO_SHARP_PX is none. Any thread. */
 WO_NODISCARD wo_status wo_point_raster_create(const wo_context *context, const wo_lens *lens,
                                               double x, double y, double v, wo_point_raster *raster,
                                               wo_error *error);

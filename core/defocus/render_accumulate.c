@@ -13,27 +13,60 @@ typedef struct accumulate_job {
     wo_accumulator *worker; /* one for each */
 } accumulate_job;
 
-/* Mean squares of half the difference of the halves over the blocks of a tile, in the displayed
-   value. Returns the mean over the tile. */
-static double noise_of(const wo_accumulator *worker, double square[BLOCKS])
+/* What a tile's passes say about its noise. All pixels share the points of a pass, so that one pass
+   is one draw of chance: the squares of all passes are added up, not their differences. */
+typedef struct tile_noise {
+    wo_tile_light light;
+    double weight;                                   /* of the passes: what one sample sums up to */
+    float last[WO_TILE_HEIGHT][WO_TILE_WIDTH][3];    /* weight times half the halves' difference */
+    float squares[WO_TILE_HEIGHT][WO_TILE_WIDTH][3]; /* of what each pass added to it */
+    double variance[BLOCKS];                         /* displayed */
+} tile_noise;
+
+/* Two halves of a pixel that differ by what the passes together say, after another one. False where
+   nothing is known. */
+static bool look_at(const wo_accumulator *worker, tile_noise *t, int x, int y, float a[3],
+                    float b[3])
 {
+    float c[2][4];
+    float guessed;
+    if (!wo_accumulate_mean(worker, 0, x, y, c[0], &guessed) ||
+        !wo_accumulate_mean(worker, 1, x, y, c[1], &guessed))
+        return false;
+    for (int k = 0; k < 3; k++) {
+        const float now = (float)t->weight * 0.5f * (c[1][k] - c[0][k]);
+        const float step = now - t->last[y][x][k];
+        t->last[y][x][k] = now;
+        t->squares[y][x][k] += step * step;
+        const float d = sqrtf(t->squares[y][x][k]) / (float)t->weight;
+        const float mean = 0.5f * (c[0][k] + c[1][k]);
+        a[k] = mean - d;
+        b[k] = mean + d;
+    }
+    return true;
+}
+
+/* After a pass. Returns the mean variance of the tile. */
+static double noise_of(const wo_accumulator *worker, tile_noise *t)
+{
+    wo_noise noise = {0};
     double all = 0;
-    for (int b = 0; b < BLOCKS; b++) {
+    for (int block = 0; block < BLOCKS; block++) {
         double sum = 0;
         for (int i = 0; i < BLOCK * WO_TILE_HEIGHT; i++) {
-            float c[2][4];
-            float guessed;
-            bool known = true;
-            for (int half = 0; half < 2; half++)
-                known &= wo_accumulate_mean(worker, half, b * BLOCK + i % BLOCK, i / BLOCK, c[half],
-                                            &guessed);
-            for (int k = 0; known && k < 3; k++) {
-                const float d = 0.5f * (c[1][k] - c[0][k]) * wo_shown(c[0][k], c[1][k]);
-                sum += (double)(d * d) / 3;
-            }
+            const int x = block * BLOCK + i % BLOCK;
+            const int y = i / BLOCK;
+            float a[3];
+            float b[3];
+            if (look_at(worker, t, x, y, a, b))
+                sum += (double)wo_noise_add(&noise, a, b, t->light[y][x]);
         }
-        square[b] = sum / (BLOCK * WO_TILE_HEIGHT);
-        all += square[b] / BLOCKS;
+        t->variance[block] = sum / (BLOCK * WO_TILE_HEIGHT);
+    }
+    const double factor = wo_noise_factor(&noise);
+    for (int block = 0; block < BLOCKS; block++) {
+        t->variance[block] *= factor;
+        all += t->variance[block] / BLOCKS;
     }
     return all;
 }
@@ -57,24 +90,23 @@ static void store(const wo_defocus *scene, const wo_accumulator *worker, int32_t
     }
 }
 
-static void tell(wo_tile_facts *facts, float rays, const double square[BLOCKS])
+static void tell(wo_tile_facts *facts, float rays, const double variance[BLOCKS])
 {
     for (int32_t y = 0; y < WO_TILE_HEIGHT; y++) {
         for (int32_t x = 0; x < WO_TILE_WIDTH; x++) {
             facts->rays[y][x] = rays;
-            facts->error[y][x] = (float)(WO_HALVES_TO_ERROR * sqrt(square[x / BLOCK]));
+            facts->error[y][x] = (float)sqrt(variance[x / BLOCK]);
         }
     }
 }
 
-/* Views until the error is small enough (adaptive.h); *light: what one sample would sum up to. */
+/* Views until the error is small enough (adaptive.h). */
 static bool sample(const wo_accumulate *all, wo_accumulator *worker, int32_t tx, int32_t ty,
-                   int *rays, double *light, double square[BLOCKS])
+                   int *rays, tile_noise *noise)
 {
     const wo_defocus *scene = all->scene;
     const wo_quality *quality = &scene->quality;
     *rays = 0;
-    *light = 0;
     int level = 0;
     for (unsigned pass = 0;; pass++) {
         const wo_lens *lens = quality->adaptive ? &scene->levels[level] : scene->lens;
@@ -84,8 +116,8 @@ static bool sample(const wo_accumulate *all, wo_accumulator *worker, int32_t tx,
         if (!wo_accumulate_add(all, worker, lens, pass, tx, ty, scale))
             return false;
         *rays += lens->count;
-        *light += scale * lens->count;
-        const double e = WO_ERROR_SIGMAS * WO_HALVES_TO_ERROR * sqrt(noise_of(worker, square));
+        noise->weight += scale * lens->count;
+        const double e = WO_ERROR_SIGMAS * sqrt(noise_of(worker, noise));
         if (!quality->adaptive || e <= quality->target_error)
             return true;
         const double too_large = quality->target_error > 0 ? e / quality->target_error : INFINITY;
@@ -104,22 +136,22 @@ static bool accumulate_tile(void *user, int32_t tx, int32_t ty, unsigned index,
     wo_accumulator *worker = &job->worker[index];
     const wo_ray_tile *tile = wo_lens_rays_at(scene->rays, tx, ty);
     const bool straight = wo_ray_tile_straight(tile);
-    double square[BLOCKS] = {0};
+    tile_noise noise = {0};
     if (tile->class == WO_TILE_EMPTY || straight) {
-        tell(facts, straight ? 1 : 0, square);
+        tell(facts, straight ? 1 : 0, noise.variance);
         return wo_lens_rays_tile(scene->rays, scene->context, tx, ty, pixels, part);
     }
     int rays;
-    double light;
+    const bool lit = wo_tile_find_light(scene, tx, ty, noise.light, part);
     worker->writes = 0;
-    if (!wo_accumulate_begin(all, worker, tx, ty) ||
-        !sample(all, worker, tx, ty, &rays, &light, square))
+    if (!wo_accumulate_begin(all, worker, tx, ty) || !sample(all, worker, tx, ty, &rays, &noise))
         return false;
     for (int b = 0; rays == 1 && b < BLOCKS; b++)
-        square[b] = NAN;
-    store(scene, worker, tx, ty, light, pixels);
-    wo_tile_highlights(scene, tx, ty, pixels, part);
-    tell(facts, (float)rays, square);
+        noise.variance[b] = NAN;
+    store(scene, worker, tx, ty, noise.weight, pixels);
+    if (lit)
+        wo_tile_add_light(pixels, noise.light);
+    tell(facts, (float)rays, noise.variance);
     part->tiles[tile->class]++;
     part->rays += (int64_t)rays * WO_TILE_WIDTH * WO_TILE_HEIGHT;
     part->steps += worker->writes;

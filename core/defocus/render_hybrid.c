@@ -71,8 +71,10 @@ static wo_status create_rays(const wo_defocus *scene, wo_rect tiles, wo_hybrid *
                          t.y2 - tiles.y1};
     const size_t pixels = (size_t)h->width * (size_t)wo_rect_height(h->area);
     const size_t tile_count = (size_t)wo_rect_width(tiles) * (size_t)wo_rect_height(tiles);
+    const bool lit = scene->highlights && scene->highlights->count > 0;
+    const int used = lit ? WO_HYBRID_PLANES : WO_HYBRID_LIGHT;
     size_t planes = 0;
-    for (int k = 0; k < WO_HYBRID_PLANES; k++)
+    for (int k = 0; k < used; k++)
         planes += !is_shared(scene, k);
     if (!(h->memory = wo_new_large(context, error, pixels, planes * sizeof(float))) ||
         !(h->rays = wo_new(context, error, tile_count, sizeof *h->rays)) ||
@@ -80,7 +82,7 @@ static wo_status create_rays(const wo_defocus *scene, wo_rect tiles, wo_hybrid *
               wo_new(context, error, (size_t)h->columns * (size_t)h->rows, sizeof *h->cells)))
         return WO_ERR_NOMEM;
     float *next = h->memory;
-    for (int k = 0; k < WO_HYBRID_PLANES; k++) {
+    for (int k = 0; k < used; k++) {
         h->plane[k] = is_shared(scene, k) ? h->plane[k - 1] : next;
         next += is_shared(scene, k) ? 0 : pixels;
     }
@@ -200,8 +202,8 @@ static bool smooth_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_
     const hybrid_job *job = user;
     if (wo_aborted(job->scene->context))
         return false;
-    wo_hybrid_noise noise;
-    wo_hybrid_join(&job->rays, tx, ty, pixels, facts, &noise);
+    wo_hybrid_noise noise[ACROSS];
+    wo_hybrid_join(&job->rays, tx, ty, pixels, facts, noise);
     const wo_ray_tile *tile = wo_lens_rays_at(job->scene->rays, tx, ty);
     const bool plain = tile->class == WO_TILE_EMPTY || wo_ray_tile_straight(tile);
     int32_t from;
@@ -217,10 +219,10 @@ static bool smooth_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_
             filtered[y] = job->filtered.c + at + (ptrdiff_t)y * wo_rect_width(job->filtered.window);
         }
         wo_hybrid_lean *const lean = lean_at(job, column, ty);
-        *lean = (wo_hybrid_lean){.keep = 1, .error = noise.noise[x / CELL]};
+        const wo_hybrid_noise *const n = &noise[x / CELL];
+        *lean = (wo_hybrid_lean){.keep = 1, .error = n->shown * (n->noise + n->lost)};
         if (!plain && !(job->filtered.mask[at] > 0))
-            wo_hybrid_lean_on(rays, filtered, noise.noise[x / CELL], lean);
-        lean->error *= noise.shown[x / CELL];
+            wo_hybrid_lean_on(rays, filtered, n, lean);
     }
     return true;
 }
@@ -260,10 +262,14 @@ static bool mix_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_til
                 pixels->guessed[y][in_tile] = smoothed->guessed[at];
                 facts->rays[y][in_tile] = smoothed->rays[at];
                 facts->error[y][in_tile] = sqrtf(around[1][1]->error);
+                const ptrdiff_t place =
+                    (ptrdiff_t)(ty * CELL + y - job->rays.area.y1) * job->rays.width +
+                    (column * CELL + x - job->rays.area.x1);
+                for (int k = 0; job->rays.plane[WO_HYBRID_LIGHT] && k < 3; k++)
+                    pixels->c[y][in_tile][k] += job->rays.plane[WO_HYBRID_LIGHT + k][place];
             }
         }
     }
-    wo_tile_highlights(job->scene, tx, ty, pixels, part);
     return true;
 }
 

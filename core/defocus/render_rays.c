@@ -15,38 +15,48 @@ static wo_march_sums whole(const wo_tile_sums *sums, int32_t row, int run_index)
     return all;
 }
 
-typedef struct noise_map {
-    float noise[WO_TILE_HEIGHT][WO_TILE_WIDTH];
-} noise_map;
+/* Squares of 8 px: a pixel alone says little about its noise. */
+enum { SQUARE = WO_TILE_HEIGHT, SQUARES = WO_TILE_WIDTH / SQUARE };
+
+typedef struct tile_noise {
+    wo_tile_light light;
+    double variance[SQUARES];
+} tile_noise;
 
 static double error_of(void *user, const wo_tile_work *work, const wo_tile_sums *sums)
 {
-    noise_map *map = user;
-    double sum = 0;
-    for (int32_t row = 0; row < WO_TILE_HEIGHT; row++) {
-        for (int x = 0; x < WO_TILE_WIDTH; x++) {
-            map->noise[row][x] = wo_tile_noise(work, sums, row, x % WO_PHASES, x / WO_PHASES);
-            sum += (double)map->noise[row][x];
+    tile_noise *tile = user;
+    wo_noise noise = {0};
+    double all = 0;
+    for (int s = 0; s < SQUARES; s++) {
+        double sum = 0;
+        for (int32_t row = 0; row < SQUARE; row++) {
+            for (int x = s * SQUARE; x < (s + 1) * SQUARE; x++) {
+                const int run_index = x % WO_PHASES;
+                const wo_march_sums *const halves = sums->halves[row][run_index];
+                const int i = x / WO_PHASES;
+                float a[4];
+                float b[4];
+                if (wo_tile_work_pixel(work, &halves[0], row, run_index, i, a) &&
+                    wo_tile_work_pixel(work, &halves[1], row, run_index, i, b))
+                    sum += (double)wo_noise_add(&noise, a, b, tile->light[row][x]);
+            }
         }
+        tile->variance[s] = sum / (SQUARE * SQUARE);
     }
-    return sum / (WO_TILE_WIDTH * WO_TILE_HEIGHT);
+    const double factor = wo_noise_factor(&noise);
+    for (int s = 0; s < SQUARES; s++) {
+        tile->variance[s] *= factor;
+        all += tile->variance[s] / SQUARES;
+    }
+    return all;
 }
 
-/* Noise is told by squares of 8 px: one pixel says little. */
-enum { SQUARE = WO_TILE_HEIGHT };
-
-static void put_errors(const noise_map *map, wo_tile_facts *facts)
+static void put_errors(const tile_noise *tile, wo_tile_facts *facts)
 {
-    for (int32_t x0 = 0; x0 < WO_TILE_WIDTH; x0 += SQUARE) {
-        float sum = 0;
-        for (int32_t y = 0; y < SQUARE; y++)
-            for (int32_t x = x0; x < x0 + SQUARE; x++)
-                sum += map->noise[y][x];
-        const float e = (float)WO_HALVES_TO_ERROR * sqrtf(sum / (SQUARE * SQUARE));
-        for (int32_t y = 0; y < SQUARE; y++)
-            for (int32_t x = x0; x < x0 + SQUARE; x++)
-                facts->error[y][x] = e;
-    }
+    for (int32_t y = 0; y < WO_TILE_HEIGHT; y++)
+        for (int32_t x = 0; x < WO_TILE_WIDTH; x++)
+            facts->error[y][x] = (float)sqrt(tile->variance[x / SQUARE]);
 }
 
 static bool rays_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_tile_pixels *pixels,
@@ -56,7 +66,7 @@ static bool rays_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_ti
     const wo_defocus *scene = user;
     wo_tile_work work;
     wo_tile_sums sums;
-    noise_map map;
+    tile_noise noise;
     memset(pixels, 0, sizeof *pixels);
     memset(facts->rays, 0, sizeof facts->rays);
     memset(facts->error, 0, sizeof facts->error);
@@ -64,7 +74,8 @@ static bool rays_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_ti
     part->tiles[work.tile->class]++;
     if (work.tile->class == WO_TILE_EMPTY)
         return true;
-    if (!wo_tile_sample(scene, &work, error_of, &map, &sums, part))
+    const bool lit = wo_tile_find_light(scene, tx, ty, noise.light, part);
+    if (!wo_tile_sample(scene, &work, error_of, &noise, &sums, part))
         return false;
     for (int32_t row = 0; row < WO_TILE_HEIGHT; row++) {
         for (int run_index = 0; run_index < WO_PHASES; run_index++) {
@@ -77,8 +88,13 @@ static bool rays_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_ti
             }
         }
     }
-    put_errors(&map, facts);
-    wo_tile_highlights(scene, tx, ty, pixels, part);
+    if (!wo_ray_tile_straight(work.tile)) {
+        for (int s = 0; sums.rays == 1 && s < SQUARES; s++)
+            noise.variance[s] = NAN;
+        put_errors(&noise, facts);
+    }
+    if (lit)
+        wo_tile_add_light(pixels, noise.light);
     return true;
 }
 

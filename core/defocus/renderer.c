@@ -173,19 +173,33 @@ wo_status wo_frame_tiles(const wo_defocus *scene, const wo_frame *frame, double 
     return atomic_load(&job.stop) ? wo_fail(error, WO_ABORTED, "stopped by the user") : WO_OK;
 }
 
-void wo_tile_highlights(const wo_defocus *scene, int32_t tx, int32_t ty, wo_tile_pixels *pixels,
+bool wo_tile_find_light(const wo_defocus *scene, int32_t tx, int32_t ty, wo_tile_light light,
                         wo_report *part)
 {
+    memset(light, 0, sizeof(wo_tile_light));
     const wo_ray_tile *tile = wo_lens_rays_at(scene->rays, tx, ty);
     if (!scene->highlights || scene->highlights->count == 0 || tile->class == WO_TILE_EMPTY)
-        return;
+        return false;
     const wo_rect rect = {tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT, (tx + 1) * WO_TILE_WIDTH,
                           (ty + 1) * WO_TILE_HEIGHT};
-    float light[WO_TILE_HEIGHT][WO_TILE_WIDTH][3] = {0};
-    part->rays +=
+    const int64_t rays =
         wo_highlights_add(scene->highlights, scene->stack, scene->lens, rect, tile->v_near, light);
+    part->rays += rays;
+    return rays > 0;
+}
+
+void wo_tile_add_light(wo_tile_pixels *pixels, wo_tile_light light)
+{
     for (int32_t y = 0; y < WO_TILE_HEIGHT; y++)
         for (int32_t x = 0; x < WO_TILE_WIDTH; x++)
             for (int k = 0; k < 3; k++)
                 pixels->c[y][x][k] += light[y][x][k];
+}
+
+void wo_tile_highlights(const wo_defocus *scene, int32_t tx, int32_t ty, wo_tile_pixels *pixels,
+                        wo_report *part)
+{
+    wo_tile_light light;
+    if (wo_tile_find_light(scene, tx, ty, light, part))
+        wo_tile_add_light(pixels, light);
 }

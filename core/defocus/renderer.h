@@ -105,7 +105,14 @@ WO_NODISCARD wo_status wo_frame_tiles(const wo_defocus *scene, const wo_frame *f
                                       double to, wo_tile_function *function, void *user,
                                       wo_report *report, wo_error *error);
 
-/* Adds the light of highlights to a tile that a method rendered without it, and counts the rays. */
+/* Light of the highlights on a tile, red, green and blue, which methods render without it. */
+typedef float wo_tile_light[WO_TILE_HEIGHT][WO_TILE_WIDTH][3];
+
+/* Finds it and counts the rays. False where there is none: light is 0. */
+bool wo_tile_find_light(const wo_defocus *scene, int32_t tx, int32_t ty, wo_tile_light light,
+                        wo_report *part);
+void wo_tile_add_light(wo_tile_pixels *pixels, wo_tile_light light);
+/* Both, for methods that need it only at the end. */
 void wo_tile_highlights(const wo_defocus *scene, int32_t tx, int32_t ty, wo_tile_pixels *pixels,
                         wo_report *part);
 

@@ -20,9 +20,21 @@ typedef struct wo_sheet {
     bool any;      /* holds at least one surface */
 } wo_sheet;
 
+/* With memory that is not cleared. */
 WO_NODISCARD wo_status wo_sheet_create(const wo_context *context, wo_rect area, wo_sheet *sheet,
                                        wo_error *error);
 void wo_sheet_destroy(const wo_context *context, wo_sheet *sheet);
+
+/* Nearest and farthest of its surfaces; false when it has none. */
+bool wo_sheet_range(const wo_sheet *sheet, float *v_min, float *v_max);
+
+/* Can nothing of a strip be a step of vergence? It is WO_STRIP values of a row of v, an array of
+   w x h, from (x, y) on; all that are no more than around (at most 8) px away count, too. So when
+   the surfaces lie within range of each other, and no pixel is empty (gaps: or whatever is); also
+   when all are. */
+enum { WO_STRIP = 32 };
+bool wo_sheet_even(const float *v, int32_t w, int32_t h, int32_t x, int32_t y, int32_t around,
+                   double range, bool gaps);
 
 /* How a layer's images become a sheet. */
 typedef struct wo_sheet_source {
@@ -62,6 +74,9 @@ WO_NODISCARD wo_status wo_sheet_load(const wo_context *context, const wo_sheet_s
 /* Colour of one pixel: premultiplied, finite, coverage 0..1; outside the bounds the nearest pixel.
    Returns how many samples were not finite, or cut to WO_COLOUR_MAX. */
 int wo_read_colour(const wo_image *image, wo_alpha alpha, int32_t x, int32_t y, float c[4]);
+
+/* Would wo_read_colour give the pixels x1..x2 of a row as they are? */
+bool wo_row_is_plain(const wo_image *image, wo_alpha alpha, int32_t x1, int32_t x2, int32_t y);
 
 /* Vergence of one pixel of a layer, 0 with *valid = false where there is none; outside the bounds
    the nearest pixel. Of source the depth, its channel and reading, format, focal_px and stretch are

@@ -118,13 +118,16 @@ static bool step_along(const repair_job *job, int32_t x, int32_t y, int a, int b
 {
     const size_t here = (size_t)y * (size_t)job->w + (size_t)x;
     const ptrdiff_t next = (ptrdiff_t)b * job->w + a;
-    bool open[2];
-    int up = run_of(job, x, y, a, b, 1, &open[0]);
-    const int sign = up > 0 ? 1 : -1;
-    up = up > 0 ? up : run_of(job, x, y, a, b, -1, &open[0]);
-    int down = run_of(job, x, y, -a, -b, -sign, &open[1]);
-    if (up == 0 || down == 0)
+    if (!inside(job, x + a, y + b) || !inside(job, x - a, y - b))
         return false;
+    const float rise = job->depth[here + (size_t)next] - job->depth[here];
+    const float fall = job->depth[here - (size_t)next] - job->depth[here];
+    if (!(rise > 0 && fall < 0) && !(rise < 0 && fall > 0))
+        return false;
+    const int sign = rise > 0 ? 1 : -1;
+    bool open[2];
+    int up = run_of(job, x, y, a, b, sign, &open[0]);
+    int down = run_of(job, x, y, -a, -b, -sign, &open[1]);
     size_t end[2] = {here + (size_t)(up * next), here - (size_t)(down * next)};
     const size_t whole[2] = {end[0], end[1]};
     if (!trim(job, next, whole, open[0], &end[0], &up) ||
@@ -166,14 +169,41 @@ static bool is_surface(const repair_job *job, int32_t x, int32_t y, const mixed 
     return false;
 }
 
-/* The steepest step over a pixel: the others go along the edge. */
-static bool find_step(const repair_job *job, int32_t x, int32_t y, mixed *best)
+static const int direction[DIRECTIONS][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
+
+/* Nearly every pixel can be told not to be on a step by the vergences on the line through it, which
+   are too near to each other. Bit i of even[k]: so in direction i at x + k. */
+static void find_even(const repair_job *job, int32_t x, int32_t y, uint8_t even[WO_STRIP])
 {
-    static const int direction[DIRECTIONS][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
+    memset(even, 0, WO_STRIP);
+    if (x < RUN || y < RUN || x + WO_STRIP + RUN > job->w || y + RUN >= job->h)
+        return;
+    for (int i = 0; i < DIRECTIONS; i++) {
+        const ptrdiff_t next = (ptrdiff_t)direction[i][1] * job->w + direction[i][0];
+        const float *v = job->v + (ptrdiff_t)y * job->w + x - RUN * next;
+        float low[WO_STRIP], high[WO_STRIP];
+        float sum[WO_STRIP] = {0}; /* NaN when any is */
+        memcpy(low, v, sizeof low);
+        memcpy(high, v, sizeof high);
+        for (int t = 0; t <= 2 * RUN; t++, v += next)
+            for (int k = 0; k < WO_STRIP; k++) {
+                low[k] = v[k] < low[k] ? v[k] : low[k];
+                high[k] = v[k] > high[k] ? v[k] : high[k];
+                sum[k] += v[k];
+            }
+        for (int k = 0; k < WO_STRIP; k++)
+            even[k] |=
+                (uint8_t)(((double)high[k] - (double)low[k] <= job->step && !isnan(sum[k])) << i);
+    }
+}
+
+/* The steepest step over a pixel: the others go along the edge. */
+static bool find_step(const repair_job *job, int32_t x, int32_t y, unsigned even, mixed *best)
+{
     bool found = false;
     for (int i = 0; i < DIRECTIONS; i++) {
         mixed m = {0};
-        if (!step_along(job, x, y, direction[i][0], direction[i][1], &m))
+        if (even & 1u << i || !step_along(job, x, y, direction[i][0], direction[i][1], &m))
             continue;
         if (!found || m.steepness > best->steepness)
             *best = m;
@@ -182,20 +212,33 @@ static bool find_step(const repair_job *job, int32_t x, int32_t y, mixed *best)
     return found;
 }
 
+static void find_pixel(repair_job *job, int32_t x, int32_t y, unsigned even)
+{
+    const size_t at = (size_t)y * (size_t)job->w + (size_t)x;
+    mixed m = {0};
+    if (isnan(job->v[at]) || !find_step(job, x, y, even, &m) || is_surface(job, x, y, &m))
+        return;
+    job->to[at] = m.part >= 0.5 || isnan(job->v[m.far]) ? m.to_near : m.to_far;
+    job->mix[at] = (float)m.part;
+}
+
 static void find_row(void *user, size_t index, unsigned worker)
 {
     (void)worker;
     repair_job *job = user;
-    for (int32_t i = 0; i < job->w; i++) {
-        const size_t at = index * (size_t)job->w + (size_t)i;
-        mixed m = {0};
+    const int32_t y = (int32_t)index;
+    const size_t w = (size_t)job->w;
+    memset(job->to + index * w, 0, w * sizeof *job->to);
+    for (size_t at = index * w; at < (index + 1) * w; at++)
         job->mix[at] = NAN;
-        job->to[at] = (way){0, 0};
-        if (isnan(job->v[at]) || !find_step(job, i, (int32_t)index, &m) ||
-            is_surface(job, i, (int32_t)index, &m))
+    for (int32_t x = 0; x < job->w; x += WO_STRIP) {
+        uint8_t even[WO_STRIP];
+        if (wo_sheet_even(job->v, job->w, job->h, x, y, RUN, job->step, false))
             continue;
-        job->to[at] = m.part >= 0.5 || isnan(job->v[m.far]) ? m.to_near : m.to_far;
-        job->mix[at] = (float)m.part;
+        find_even(job, x, y, even);
+        for (int32_t i = 0; i < WO_STRIP && x + i < job->w; i++)
+            if (even[i] != (1 << DIRECTIONS) - 1)
+                find_pixel(job, x + i, y, even[i]);
     }
 }
 
@@ -214,6 +257,8 @@ static void repair_row(void *user, size_t index, unsigned worker)
     const int32_t y = job->sheet->area.y1 + (int32_t)index;
     for (int32_t i = 0; i < job->w; i++) {
         const size_t at = index * (size_t)job->w + (size_t)i;
+        if (job->to[at].x == 0 && job->to[at].y == 0)
+            continue;
         const float v = job->v[surface_of(job, at)];
         if (!(fabs((double)v - (double)job->v[at]) > job->off)) {
             job->mix[at] = NAN;
@@ -243,11 +288,11 @@ wo_status wo_sheet_repair_depth(const wo_context *context, const wo_sheet_source
     wo_status status = WO_ERR_NOMEM;
     if (!(job.rows = wo_new(context, error, (size_t)job.h, sizeof *job.rows)))
         goto done;
-    if (!(job.depth = wo_new_large(context, error, n, sizeof *job.depth)))
+    if (!(job.depth = wo_new_raw(context, error, n, sizeof *job.depth)))
         goto done;
-    if (!(job.to = wo_new_large(context, error, n, sizeof *job.to)))
+    if (!(job.to = wo_new_raw(context, error, n, sizeof *job.to)))
         goto done;
-    if (!(before = wo_new_large(context, error, n, sizeof *before)))
+    if (!(before = wo_new_raw(context, error, n, sizeof *before)))
         goto done;
     memcpy(before, sheet->v, n * sizeof *before);
     job.v = before;

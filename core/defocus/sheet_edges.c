@@ -36,9 +36,12 @@ static void mark_row(void *user, size_t index, unsigned worker)
     split_job *job = user;
     const int32_t y = (int32_t)index;
     const float *v = job->sheet->v;
+    bool even = false;
     for (int32_t x = 0; x < job->w; x++) {
         const size_t at = index * (size_t)job->w + (size_t)x;
-        if (isnan(v[at]))
+        if (x % WO_STRIP == 0)
+            even = wo_sheet_even(v, job->w, job->h, x, y, 1, job->step, true);
+        if (even || isnan(v[at]))
             continue;
         for (int32_t b = y > 0 ? -1 : 0; b <= (y + 1 < job->h); b++)
             for (int32_t a = x > 0 ? -1 : 0; a <= (x + 1 < job->w); a++) {
@@ -188,7 +191,7 @@ wo_status wo_sheet_split_edges(const wo_context *context, double px_per_dioptre,
         goto done;
     if (!(job.rows = wo_new(context, error, (size_t)job.h, sizeof *job.rows)))
         goto done;
-    if (!(job.colour = wo_new_large(context, error, n, sizeof *job.colour)))
+    if (!(job.colour = wo_new_raw(context, error, n, sizeof *job.colour)))
         goto done;
     memcpy(job.colour, sheet->c, n * sizeof *job.colour);
     wo_run(context, mark_row, &job, (size_t)job.h);

@@ -3,6 +3,7 @@
 #include "defocus/sheet.h"
 
 #include <math.h>
+#include <string.h>
 
 /* A surface ends where its neighbour's blur is larger by this many px of radius. */
 #define GAP_PX 1.0
@@ -48,14 +49,17 @@ static void farthest_row(void *user, size_t index, unsigned worker)
     (void)worker;
     fill_job *job = user;
     const size_t w = (size_t)wo_rect_width(job->hidden->area);
-    for (size_t at = index * w; at < (index + 1) * w; at++) {
-        job->far_v[at] = NAN;
-        for (size_t s = 0; s < job->count; s++) {
-            const float v = job->sheets[s].any ? job->sheets[s].v[at] : NAN;
-            if (!isnan(v) && !(v >= job->far_v[at])) {
-                job->far_v[at] = v;
-                job->far_sheet[at] = (uint8_t)s;
-            }
+    float *far_v = job->far_v + index * w;
+    uint8_t *far_sheet = job->far_sheet + index * w;
+    for (size_t i = 0; i < w; i++)
+        far_v[i] = NAN;
+    memset(far_sheet, 0, w);
+    for (size_t s = 0; s < job->count; s++) {
+        const float *v = job->sheets[s].v + index * w;
+        for (size_t i = 0; i < w && job->sheets[s].any; i++) {
+            const bool farther = !isnan(v[i]) && !(v[i] >= far_v[i]);
+            far_v[i] = farther ? v[i] : far_v[i];
+            far_sheet[i] = farther ? (uint8_t)s : far_sheet[i];
         }
     }
 }
@@ -69,10 +73,13 @@ static void seed_row(void *user, size_t index, unsigned worker)
     const int32_t w = wo_rect_width(area);
     const int32_t h = wo_rect_height(area);
     const int32_t y = (int32_t)index;
+    bool even = false;
     for (int32_t x = 0; x < w; x++) {
         const size_t at = index * (size_t)w + (size_t)x;
         float *sum = job->fine->sum[at];
-        if (isnan(job->far_v[at]))
+        if (x % WO_STRIP == 0)
+            even = wo_sheet_even(job->far_v, w, h, x, y, 1, job->gap, true);
+        if (even || isnan(job->far_v[at]))
             continue;
         for (int32_t b = y > 0 ? -1 : 0; b <= (y + 1 < h); b++) {
             for (int32_t a = x > 0 ? -1 : 0; a <= (x + 1 < w); a++) {
@@ -99,14 +106,22 @@ static void pull_row(void *user, size_t index, unsigned worker)
     const level *fine = job->fine;
     level *coarse = job->coarse;
     const int32_t y = coarse->cells.y1 + (int32_t)index;
+    const wo_rect f = fine->cells;
+    const ptrdiff_t w = wo_rect_width(f);
     for (int32_t x = coarse->cells.x1; x < coarse->cells.x2; x++) {
-        float *sum = coarse->sum[cell_at(coarse, x, y)];
-        for (int32_t j = 2 * y; j < 2 * y + 2; j++)
-            for (int32_t i = 2 * x; i < 2 * x + 2; i++)
-                if (i >= fine->cells.x1 && i < fine->cells.x2 && j >= fine->cells.y1 &&
-                    j < fine->cells.y2)
-                    for (int k = 0; k < CHANNELS; k++)
-                        sum[k] += fine->sum[cell_at(fine, i, j)][k];
+        float *sum = coarse->sum[index * (size_t)wo_rect_width(coarse->cells) +
+                                 (size_t)(x - coarse->cells.x1)];
+        for (int32_t j = 2 * y; j < 2 * y + 2; j++) {
+            for (int32_t i = 2 * x; i < 2 * x + 2; i++) {
+                if (i < f.x1 || i >= f.x2 || j < f.y1 || j >= f.y2)
+                    continue;
+                const float *part = fine->sum[(j - f.y1) * w + i - f.x1];
+                for (int k = 0; k < CHANNELS && part[5] > 0; k++)
+                    sum[k] += part[k];
+            }
+        }
+        if (!(sum[5] > 0))
+            continue;
         const float scale = sum[5] > 1 ? 1 / sum[5] : 1;
         for (int k = 0; k < CHANNELS; k++)
             sum[k] *= scale;
@@ -121,13 +136,14 @@ static void push_row(void *user, size_t index, unsigned worker)
     const level *coarse = job->coarse;
     const wo_rect c = coarse->cells;
     const int32_t y = fine->cells.y1 + (int32_t)index;
+    float(*row)[CHANNELS] = fine->sum + cell_at(fine, fine->cells.x1, y);
     const int32_t y0 = floor_half(y);
     const int32_t y1 = y & 1 ? y0 + 1 : y0 - 1;
     const size_t w = (size_t)wo_rect_width(c);
     const size_t row0 = (size_t)(y0 - c.y1) * w;
     const size_t row1 = y1 >= c.y1 && y1 < c.y2 ? (size_t)(y1 - c.y1) * w : row0;
     for (int32_t x = fine->cells.x1; x < fine->cells.x2; x++) {
-        float *sum = fine->sum[cell_at(fine, x, y)];
+        float *sum = row[x - fine->cells.x1];
         const float rest = 1 - sum[5];
         if (!(rest > 0))
             continue;
@@ -176,9 +192,9 @@ wo_status wo_sheet_fill_hidden(const wo_context *context, const wo_sheet *sheets
     const size_t n = (size_t)wo_rect_width(hidden->area) * (size_t)wo_rect_height(hidden->area);
     wo_status status = WO_ERR_NOMEM;
     levels = levels > LEVELS_MAX ? LEVELS_MAX : levels;
-    if (!(job.far_v = wo_new_large(context, error, n, sizeof *job.far_v)))
+    if (!(job.far_v = wo_new_raw(context, error, n, sizeof *job.far_v)))
         goto done;
-    if (!(job.far_sheet = wo_new(context, error, n, sizeof *job.far_sheet)))
+    if (!(job.far_sheet = wo_new_raw(context, error, n, sizeof *job.far_sheet)))
         goto done;
     for (int k = 0; k <= levels; k++) {
         level *l = &pyramid[k];

@@ -49,7 +49,7 @@ typedef struct wo_stack {
     ptrdiff_t row; /* floats of one row: WO_PHASES * run */
     int sheets;
     float *v[WO_SHEETS_MAX];
-    float *c[WO_SHEETS_MAX][4];
+    float *c[WO_SHEETS_MAX][4]; /* finite but of no meaning where there is no surface */
     bool guessed[WO_SHEETS_MAX];
     float *opaque; /* 1 where the scene as given is opaque, there and all around, else 0 */
     float *memory;

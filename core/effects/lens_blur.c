@@ -79,9 +79,9 @@ wo_status wo_lens_blur_prepare(const wo_lens_blur_params *wanted, const wo_geome
                                            wo_thin_lens_coc(&setup->lens, 1 / params->depth_far))));
     setup->radius = radius;
     setup->reach = params->lens == WO_LENS_THIN ? radius : 1.25 * radius + 0.06 * width;
-    setup->tilt = 1;
+    setup->reach *= fmax(1, geometry->pixel_stretch);
     if (params->focus_by == WO_FOCUS_BY_PLANE && !setup->focus_map)
-        setup->tilt = 1 / (1 - WO_FOCUS_TILT_MAX);
+        setup->reach /= 1 - WO_FOCUS_TILT_MAX;
     setup->margin = wo_renderer_of((wo_method)params->method)->margin;
     setup->v_max = radius / setup->lens.k;
     setup->v_min = -setup->v_max;
@@ -105,31 +105,33 @@ static wo_rect on_grid(wo_rect r, int32_t grid_x, int32_t grid_y)
                      floor_to(r.x2 + grid_x - 1, grid_x), floor_to(r.y2 + grid_y - 1, grid_y)};
 }
 
-wo_lens_blur_areas wo_lens_blur_plan_areas(const wo_lens_blur_setup *setup,
-                                           const wo_geometry *geometry, wo_rect window)
+wo_rect wo_lens_blur_stack_area(const wo_lens_blur_setup *setup, wo_rect window, double reach)
+{
+    const int32_t margin = (int32_t)ceil(reach) + WO_STACK_MARGIN;
+    const wo_rect tiles =
+        on_grid(wo_rect_grow(window, setup->margin, setup->margin), WO_TILE_WIDTH, WO_TILE_HEIGHT);
+    return wo_stack_grid(wo_rect_grow(tiles, margin, margin));
+}
+
+wo_rect wo_lens_blur_layers_area(const wo_lens_blur_setup *setup, wo_rect window)
 {
     /* Hosts ask for windows without end; no picture goes beyond this. */
     const wo_rect known = {-WO_MAX_COORDINATE, -WO_MAX_COORDINATE, WO_MAX_COORDINATE,
                            WO_MAX_COORDINATE};
-    wo_lens_blur_areas areas = {{0}, {0}};
     window = wo_rect_intersect(window, known);
     if (wo_rect_empty(window))
-        return areas;
-    const double reach = setup->reach * setup->tilt * fmax(1, geometry->pixel_stretch);
-    const int32_t margin = (int32_t)ceil(reach) + WO_STACK_MARGIN;
-    const wo_rect tiles =
-        on_grid(wo_rect_grow(window, setup->margin, setup->margin), WO_TILE_WIDTH, WO_TILE_HEIGHT);
-    areas.stack = wo_stack_grid(wo_rect_grow(tiles, margin, margin));
+        return (wo_rect){0};
+    const wo_rect stack = wo_lens_blur_stack_area(setup, window, setup->reach);
     /* Highlights are told from areas of light by whole tiles and those around them. */
-    areas.layers = wo_rect_grow(on_grid(areas.stack, WO_TILE_WIDTH, WO_TILE_HEIGHT), WO_TILE_WIDTH,
-                                WO_TILE_HEIGHT);
+    wo_rect area =
+        wo_rect_grow(on_grid(stack, WO_TILE_WIDTH, WO_TILE_HEIGHT), WO_TILE_WIDTH, WO_TILE_HEIGHT);
     if (setup->fill_levels > 0) {
         const int32_t fill = wo_sheet_fill_margin(setup->fill_levels);
         const int32_t grid = (int32_t)1 << setup->fill_levels;
-        areas.layers = on_grid(wo_rect_grow(areas.layers, fill, fill), grid, grid);
-        areas.layers = wo_rect_grow(areas.layers, INPUT_MARGIN, INPUT_MARGIN);
+        area = on_grid(wo_rect_grow(area, fill, fill), grid, grid);
+        area = wo_rect_grow(area, INPUT_MARGIN, INPUT_MARGIN);
     }
-    return areas;
+    return area;
 }
 
 static wo_status region(const void *params, const wo_geometry *geometry, wo_rect window,
@@ -145,13 +147,13 @@ static wo_status region(const void *params, const wo_geometry *geometry, wo_rect
     }
     if (clip == WO_CLIP_FOCUS) {
         if (setup.focus_map)
-            *needed = wo_lens_blur_plan_areas(&setup, geometry, window).layers;
+            *needed = wo_lens_blur_layers_area(&setup, window);
         return WO_OK;
     }
     const bool plate = clip == WO_CLIP_BACKGROUND || clip == WO_CLIP_BACKGROUND_DEPTH;
     if (plate ? setup.background_used : clip < WO_CLIP_MASK && setup.layer_used[clip / 2]) {
         const wo_rect points = wo_lens_blur_focus_area(params, geometry, setup.focus_map);
-        *needed = wo_lens_blur_plan_areas(&setup, geometry, window).layers;
+        *needed = wo_lens_blur_layers_area(&setup, window);
         if (!wo_rect_empty(points) && !wo_rect_empty(*needed))
             *needed = wo_rect_union(*needed, points);
     }

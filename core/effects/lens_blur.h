@@ -132,8 +132,7 @@ typedef struct wo_lens_blur_setup {
     bool background_used;
     bool focus_map; /* the Focus clip says where the focus is */
     double radius;  /* largest circle of confusion that is drawn, px */
-    double reach;   /* px: no ray of the lens goes farther, aberrations included */
-    double tilt;    /* and so many times as far when it is tilted: 1..2 */
+    double reach;   /* px: no ray of the lens goes farther, aberrations and tilt included */
     double v_min, v_max;
     int32_t margin;  /* px round a window that the method wants tiles for */
     int fill_levels; /* of the continuation of hidden surfaces; 0 = no depth, nothing to continue */
@@ -153,14 +152,11 @@ WO_NODISCARD wo_status wo_lens_blur_prepare(const wo_lens_blur_params *params,
                                             const wo_geometry *geometry, wo_lens_blur_setup *setup,
                                             wo_error *error);
 
-/* Areas for a window: what the stack holds, and what is read of the layers. */
-typedef struct wo_lens_blur_areas {
-    wo_rect stack;
-    wo_rect layers; /* before cutting to the extent */
-} wo_lens_blur_areas;
-
-wo_lens_blur_areas wo_lens_blur_plan_areas(const wo_lens_blur_setup *setup,
-                                           const wo_geometry *geometry, wo_rect window);
+/* What is read of the layers for a window, before cutting to the extent. */
+wo_rect wo_lens_blur_layers_area(const wo_lens_blur_setup *setup, wo_rect window);
+/* What the stack for a window holds when no ray goes farther than reach, px; window must not be
+   empty. */
+wo_rect wo_lens_blur_stack_area(const wo_lens_blur_setup *setup, wo_rect window, double reach);
 
 extern const wo_effect wo_lens_blur;
 

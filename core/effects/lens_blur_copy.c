@@ -119,7 +119,7 @@ void wo_lens_blur_find_copy(wo_plan *plan, const wo_plan_args *args)
 {
     const wo_lens_blur_setup *setup = &plan->setup;
     const wo_lens_blur_params *params = &plan->params;
-    const wo_lens_blur_areas areas = wo_lens_blur_plan_areas(setup, &plan->geometry, plan->window);
+    const wo_rect seen = wo_lens_blur_stack_area(setup, plan->window, setup->reach);
     if (params->output != WO_OUTPUT_IMAGE || params->method == WO_METHOD_REFERENCE ||
         setup->layers != 1 || wo_lens_blur_has_table(params) ||
         !wo_lens_blur_focus_is_plain(params, setup->focus_map) || !plan->focus.flat)
@@ -128,7 +128,7 @@ void wo_lens_blur_find_copy(wo_plan *plan, const wo_plan_args *args)
         .plan = plan,
         .source = wo_lens_blur_layer(plan, args, 0),
         .px = setup->lens.k * fmax(1, plan->geometry.pixel_stretch),
-        .area = wo_rect_intersect(areas.stack, plan->geometry.extent),
+        .area = wo_rect_intersect(seen, plan->geometry.extent),
     };
     const double start = wo_seconds();
     atomic_init(&job.blurred, false);
@@ -146,24 +146,6 @@ void wo_lens_blur_find_copy(wo_plan *plan, const wo_plan_args *args)
     plan->report.clamped_radius = atomic_load(&job.clamped);
 }
 
-/* A row that needs nothing done to it. */
-static bool is_plain(const wo_image *source, wo_alpha alpha, wo_rect r, int32_t y)
-{
-    const wo_rect b = source->bounds;
-    if (source->components != 4 || alpha != WO_ALPHA_PREMULTIPLIED || r.x1 < b.x1 || r.x2 > b.x2 ||
-        y < b.y1 || y >= b.y2)
-        return false;
-    static const float low[4] = {-WO_COLOUR_MAX, -WO_COLOUR_MAX, -WO_COLOUR_MAX, 0};
-    static const float high[4] = {WO_COLOUR_MAX, WO_COLOUR_MAX, WO_COLOUR_MAX, 1};
-    const float *p = wo_image_at(source, r.x1, y);
-    const int32_t width = wo_rect_width(r);
-    int bad[4] = {0};
-    for (int32_t i = 0; i < width; i++, p += 4)
-        for (int k = 0; k < 4; k++)
-            bad[k] |= !(p[k] >= low[k]) | !(p[k] <= high[k]);
-    return !(bad[0] | bad[1] | bad[2] | bad[3]);
-}
-
 typedef struct copy_job {
     const wo_plan *plan;
     wo_rect window;
@@ -179,7 +161,7 @@ static void copy_row(void *user, size_t index, unsigned worker)
     const wo_rect r = job->window;
     const int32_t y = r.y1 + (int32_t)index;
     float *to = wo_image_at(job->output, r.x1, y);
-    if (is_plain(&plan->source, plan->source_alpha, r, y)) {
+    if (wo_row_is_plain(&plan->source, plan->source_alpha, r.x1, r.x2, y)) {
         memcpy(to, wo_image_at(&plan->source, r.x1, y), (size_t)wo_rect_width(r) * 4 * sizeof *to);
         return;
     }

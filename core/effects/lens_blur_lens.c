@@ -157,7 +157,6 @@ static wo_status make_lens(wo_plan *plan, wo_error *error)
 static void tilt_lens(wo_plan *plan)
 {
     wo_focus_fit_lens(&plan->focus, plan->setup.lens.k, wo_lens_slope(&plan->level[0]));
-    plan->setup.tilt = 1 / (1 - plan->focus.tilt_slope);
     if (plan->focus.tilt_slope == 0)
         return;
     for (int i = 0; i < plan->lenses; i++) {

@@ -36,6 +36,7 @@ static void empty_row(void *user, size_t index, unsigned worker)
     const size_t w = (size_t)wo_rect_width(sheet->area);
     for (size_t at = index * w; at < (index + 1) * w; at++)
         sheet->v[at] = NAN;
+    memset(sheet->c + index * w, 0, w * sizeof *sheet->c);
 }
 
 static wo_status empty_sheet(const wo_context *context, wo_rect area, wo_sheet *sheet,
@@ -106,6 +107,12 @@ static void opaque_row(void *user, size_t index, unsigned worker)
     }
 }
 
+/* Brute force draws no pictures of points. */
+static bool connects(const wo_plan *plan)
+{
+    return plan->lens.connect || plan->params.method != WO_METHOD_REFERENCE;
+}
+
 static void note_layers(wo_plan *plan, const wo_sheet sheets[SHEETS], int64_t split)
 {
     wo_report *report = &plan->report;
@@ -124,9 +131,9 @@ static void note_layers(wo_plan *plan, const wo_sheet sheets[SHEETS], int64_t sp
                             1, "sheets");
     if (plan->setup.has_depth && !sheets[HIDDEN].any)
         wo_report_leave_out(report, "sheet of hidden surfaces", "nothing is hidden", 1, "sheets");
-    if (!plan->lens.connect)
+    if (!connects(plan))
         wo_report_leave_out(report, "connections to highlights",
-                            "this lens has no closed form: rays alone find them", 0, "");
+                            "the reference finds them by rays alone", 0, "");
     else if (plan->highlights.count == 0)
         wo_report_leave_out(report, "connections to highlights", "no blurred highlight", 0, "");
 }
@@ -158,7 +165,7 @@ static wo_status mend_edges(wo_plan *plan, const wo_plan_args *args, int layer,
     wo_status status = go_on(context, error);
     if (status == WO_OK && plan->params.edge_repair == WO_EDGES_OF_COLOUR_AND_DEPTH &&
         source.depth && source.depth->data) {
-        if (!(mix = wo_new_large(context, error, n, sizeof *mix)))
+        if (!(mix = wo_new_raw(context, error, n, sizeof *mix)))
             return WO_ERR_NOMEM;
         status = wo_sheet_repair_depth(context, &source, px, plan->window, sheet, mix,
                                        &plan->report.mixed_depth, error);
@@ -214,13 +221,25 @@ static wo_status add_sheets(wo_plan *plan, const wo_plan_args *args, wo_rect are
     return add_hidden(plan, plate_depth->data != NULL, sheets, error);
 }
 
+/* How far the rays of any tile can go: mostly much less than the limit. */
+static double reach_of(const wo_plan *plan, const wo_sheet sheets[SHEETS])
+{
+    const wo_lens *lens = &plan->lens;
+    double reach = 0;
+    for (int i = 0; i < SHEETS; i++) {
+        float v_min, v_max;
+        if (sheets[i].any && wo_sheet_range(&sheets[i], &v_min, &v_max))
+            reach = fmax(reach, lens->reach(lens->self, (double)v_min, (double)v_max));
+    }
+    return fmin(reach, plan->setup.reach);
+}
+
 static wo_status build_scene(wo_plan *plan, const wo_plan_args *args, wo_error *error)
 {
     const wo_context *context = &plan->context;
-    const wo_lens_blur_areas areas =
-        wo_lens_blur_plan_areas(&plan->setup, &plan->geometry, plan->window);
     const wo_rect extent = plan->geometry.extent;
-    const wo_rect area = wo_rect_intersect(areas.layers, extent);
+    const wo_rect area =
+        wo_rect_intersect(wo_lens_blur_layers_area(&plan->setup, plan->window), extent);
     wo_sheet sheets[SHEETS] = {0};
     wo_sheet_counts counts = {0};
     int64_t split = 0;
@@ -238,16 +257,21 @@ static wo_status build_scene(wo_plan *plan, const wo_plan_args *args, wo_error *
         status = add_sheets(plan, args, area, sheets, &split, error);
     if (status == WO_OK)
         status = go_on(context, error);
-    if (status == WO_OK)
-        status = wo_highlights_take(context, sheets, SHEETS, wo_rect_intersect(areas.stack, extent),
+    plan->reach = reach_of(plan, sheets);
+    const wo_rect seen = wo_lens_blur_stack_area(&plan->setup, plan->window, plan->reach);
+    if (status == WO_OK && connects(plan))
+        status = wo_highlights_take(context, sheets, SHEETS, wo_rect_intersect(seen, extent),
                                     &plan->lens, &plan->highlights, error);
     plan->report.seconds[WO_STAGE_INPUT] += wo_seconds() - start;
     start = wo_seconds();
     if (status == WO_OK)
         status = go_on(context, error);
     if (status == WO_OK)
-        status = wo_stack_create(context, sheets, SHEETS, opaque, areas.stack, extent, &plan->stack,
-                                 error);
+        status =
+            wo_stack_create(context, sheets, SHEETS, opaque, seen, extent, &plan->stack, error);
+    if (status == WO_OK)
+        status = wo_highlights_draw(context, &plan->highlights, &plan->stack, &plan->lens,
+                                    plan->window, error);
     plan->report.seconds[WO_STAGE_BOUNDS] += wo_seconds() - start;
     plan->report.sanitised_colour = counts.sanitised_colour;
     plan->report.sanitised_depth = counts.sanitised_depth;
@@ -328,9 +352,7 @@ wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params
     const unsigned leave_out = WO_LEAVE_OUT_ALL & ~(unsigned)WO_LEAVE_OUT_HIDDEN;
     status = wo_lens_rays_create(&plan->context, &plan->stack, &plan->lens,
                                  wo_rect_grow(plan->window, plan->setup.margin, plan->setup.margin),
-                                 plan->setup.reach * plan->setup.tilt *
-                                     fmax(1, plan->geometry.pixel_stretch),
-                                 leave_out, &plan->rays, error);
+                                 plan->reach, leave_out, &plan->rays, error);
     plan->report.seconds[WO_STAGE_PLAN] += wo_seconds() - start;
 done:
     if (status != WO_OK)

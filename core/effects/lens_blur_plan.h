@@ -34,6 +34,7 @@ struct wo_plan {
     wo_lens upright[WO_LEVELS_MAX]; /* before the tilt */
     wo_tilted_pencils tilted[WO_LEVELS_MAX];
     wo_lens lens; /* the last level */
+    double reach; /* px: no ray goes farther in this scene */
     wo_stack stack;
     wo_highlights highlights;
     wo_lens_rays rays;

@@ -279,6 +279,19 @@ static double angle_of(const wo_aperture_shape *shape, double turns, double *lim
     return 2 * PI * whole / shape->sectors + inside;
 }
 
+void wo_aperture_polar(const wo_aperture_shape *shape, double radius, double turns, double u[2])
+{
+    double limit;
+    const double angle = angle_of(shape, turns - floor(turns), &limit) + shape->start + shape->turn;
+    const double o = shape->aperture.obstruction;
+    if (o > 0)
+        radius = sqrt(o * o + fmax(limit * limit - o * o, 0) * radius * radius);
+    else
+        radius *= limit;
+    u[0] = radius * cos(angle) * shape->scale_x;
+    u[1] = radius * sin(angle) * shape->scale_y;
+}
+
 void wo_aperture_sample(const wo_aperture_shape *shape, double s, double t, double u[2])
 {
     if (shape->kernel) {
@@ -290,16 +303,8 @@ void wo_aperture_sample(const wo_aperture_shape *shape, double s, double t, doub
     }
     double radius;
     double turns;
-    double limit;
     concentric(s, t, &radius, &turns);
-    const double angle = angle_of(shape, turns, &limit) + shape->start + shape->turn;
-    const double o = shape->aperture.obstruction;
-    if (o > 0)
-        radius = sqrt(o * o + fmax(limit * limit - o * o, 0) * radius * radius);
-    else
-        radius *= limit;
-    u[0] = radius * cos(angle) * shape->scale_x;
-    u[1] = radius * sin(angle) * shape->scale_y;
+    wo_aperture_polar(shape, radius, turns, u);
 }
 
 /* Noise of one value in -1..1 for each point of a grid, smooth in between. */

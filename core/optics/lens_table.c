@@ -330,7 +330,7 @@ static void measure(wo_lens_table *table, const trial *trials, double focal_px,
         float s[16] = {(float)t->s};
         float y[16] = {(float)t->t};
         float out[5][16];
-        const wo_table_rays rays = {out[0], out[1], out[2], out[3], out[4]};
+        const wo_table_rays rays = {out[0], out[1], out[2], out[3], out[4], NULL};
         wo_table_eval_base(table, &node, s, y, 1, &rays);
         double worst = 0;
         for (int side = 0; side < 2; side++) {

@@ -52,9 +52,11 @@ void wo_lens_table_destroy(const wo_context *context, wo_lens_table **table);
 void wo_lens_table_node(const wo_lens_table *table, int line, double h, wo_table_node *out);
 
 /* Evaluates them for count iris points (arrays with room for a multiple of 16). Blocked rays get
-   weight 0. */
+   weight 0; or, when clip is there, keep it: then that holds the largest of the clips, 0 without
+   any, and above 1 a ray is blocked. */
 typedef struct wo_table_rays {
     float *ax, *ay, *bx, *by, *weight;
+    float *clip; /* NULL = not wanted */
 } wo_table_rays;
 
 typedef void wo_table_function(const wo_lens_table *table, const wo_table_node *node,

@@ -4,7 +4,7 @@
 #define WO_CORE_OPTICS_PENCIL_H
 
 #include "base/simd.h"
-#include "wideopen/aperture.h"
+#include "optics/iris_grid.h"
 #include "wideopen/context.h"
 #include "wideopen/optics.h"
 
@@ -25,6 +25,25 @@ typedef struct wo_pencil_room {
     float weight[3][WO_PENCIL_PIECE + WO_LANES];
 } wo_pencil_room;
 
+/* Rays of one wavelength through points of the iris, each array with room for WO_LANES more. */
+typedef struct wo_iris_rays {
+    float *ax, *ay, *bx, *by; /* px and px per dioptre, as in wo_pencil */
+    float *weight;            /* as if nothing blocked it; light of the iris itself is left out */
+    float *clip; /* above 1 the ray is blocked; passes 1 smoothly from point to point */
+} wo_iris_rays;
+
+/* What a lens without connect says of its iris, so that pictures of a point can be drawn. */
+typedef struct wo_lens_iris {
+    const wo_iris_grid *grids;      /* [WO_IRIS_GRIDS] */
+    bool same;                      /* for every sensor point */
+    int lines;                      /* wavelengths */
+    const double (*line_weight)[3]; /* [lines] in red, green and blue; the mean of each is 1 */
+    /* Rays of a wavelength at the sensor point (x, y) px through count points (s, t), whose arrays
+       have room for WO_LANES more. Any thread. */
+    void (*rays)(const void *self, double x, double y, int line, const float *s, const float *t,
+                 int count, const wo_iris_rays *out);
+} wo_lens_iris;
+
 /* A lens as a renderer sees it. Const after it is made, shared by all threads. */
 typedef struct wo_lens {
     const void *self;
@@ -43,8 +62,10 @@ typedef struct wo_lens {
     /* px of blur radius per dioptre, for comparing vergences. */
     double px_per_dioptre;
     /* Density of rays, per px^2, that cross the picture at offset (dx, dy) from the sensor point at
-       vergence v, and the ray itself; 0 when none does. NULL = not known in closed form. */
+       vergence v, and the ray itself; 0 when none does. NULL = not known in closed form: then iris
+       is there, if points are to be drawn. */
     double (*connect)(const void *self, double dx, double dy, double v, double line[4]);
+    wo_lens_iris iris; /* iris.rays NULL = not known */
 } wo_lens;
 
 /* The thin lens with an aperture shape: K u (v - vf). stretch: vertical px per horizontal px. */

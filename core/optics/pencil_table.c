@@ -23,19 +23,32 @@ struct wo_table_pencils {
     float *points;           /* [sets][3][stride]: iris points and their weights, wavelength by
                                 wavelength */
     double reach_a, reach_b; /* px, px per dioptre */
+    wo_iris_grid grids[WO_IRIS_GRIDS]; /* borrowed like the table */
 };
 
-/* Rays of one wavelength, at tangent h in the direction (c, s) from the axis. */
-static void make_rays(const wo_table_pencils *p, int line, double h, double c, double s,
-                      const float *x, const float *y, const float *light, int count, int to,
-                      wo_pencil_room *room)
+/* Where a point (x, y) px is: tangent and direction from the axis. */
+typedef struct field_point {
+    double h, c, s;
+} field_point;
+
+static field_point field_at(const wo_table_pencils *p, double x, double y)
+{
+    const double dx = (x - p->options.centre_x) / p->options.focal_px;
+    const double dy = (y - p->options.centre_y) / (p->options.focal_px * p->options.stretch);
+    const double h = hypot(dx, dy);
+    return (field_point){h, h > 0 ? dx / h : 1, h > 0 ? dy / h : 0};
+}
+
+/* Rays of one wavelength. */
+static void make_rays(const wo_table_pencils *p, int line, field_point at, const float *x,
+                      const float *y, const float *light, int count, int to, wo_pencil_room *room)
 {
     float along[WO_PENCIL_PIECE + WO_LANES];
     float across[WO_PENCIL_PIECE + WO_LANES];
     wo_table_node node;
-    wo_lens_table_node(p->table, line, h, &node);
-    const float cf = (float)c;
-    const float sf = (float)s;
+    wo_lens_table_node(p->table, line, at.h, &node);
+    const float cf = (float)at.c;
+    const float sf = (float)at.s;
     for (int i = 0; i < count; i++) {
         along[i] = cf * x[i] + sf * y[i];
         across[i] = cf * y[i] - sf * x[i];
@@ -47,7 +60,7 @@ static void make_rays(const wo_table_pencils *p, int line, double h, double c, d
     float *const bx = room->bx + to;
     float *const by = room->by + to;
     float *const weight = room->weight[0] + to;
-    const wo_table_rays out = {ax, ay, bx, by, weight};
+    const wo_table_rays out = {ax, ay, bx, by, weight, NULL};
     p->eval(p->table, &node, along, across, count, &out);
     const float fx = (float)p->options.focal_px;
     const float fy = (float)(p->options.focal_px * p->options.stretch);
@@ -90,11 +103,7 @@ static void table_pencil(const void *self, double x, double y, unsigned set, int
                          wo_pencil_room *room, wo_pencil *out)
 {
     const wo_table_pencils *p = self;
-    const double dx = (x - p->options.centre_x) / p->options.focal_px;
-    const double dy = (y - p->options.centre_y) / (p->options.focal_px * p->options.stretch);
-    const double h = hypot(dx, dy);
-    const double c = h > 0 ? dx / h : 1;
-    const double s = h > 0 ? dy / h : 0;
+    const field_point at = field_at(p, x, y);
     const float *points = p->points + 3 * p->stride * set;
     const int left = p->options.count - first;
     const int count = left < WO_PENCIL_PIECE ? left : WO_PENCIL_PIECE;
@@ -102,7 +111,7 @@ static void table_pencil(const void *self, double x, double y, unsigned set, int
         const int from = p->begin[run] > first ? p->begin[run] : first;
         const int to = p->begin[run + 1] < first + count ? p->begin[run + 1] : first + count;
         if (from < to)
-            make_rays(p, run % p->table->lines, h, c, s, points + from, points + p->stride + from,
+            make_rays(p, run % p->table->lines, at, points + from, points + p->stride + from,
                       points + 2 * p->stride + from, to - from, from - first, room);
     }
     if (p->has_doors)
@@ -111,6 +120,64 @@ static void table_pencil(const void *self, double x, double y, unsigned set, int
         (wo_pencil){.count = count, .ax = room->ax, .ay = room->ay, .bx = room->bx, .by = room->by};
     for (int k = 0; k < 3 && !p->uniform; k++)
         out->weight[k] = room->weight[k];
+}
+
+/* How far a ray is beyond the doors; up to 1 they let it pass. */
+static float door_clip(const wo_barn_doors *doors, double fx, double fy, double ux, double uy)
+{
+    const double across = fmax(ux + doors->right * fmax(fx, 0), -ux + doors->left * fmax(-fx, 0));
+    const double along = fmax(uy + doors->top * fmax(fy, 0), -uy + doors->bottom * fmax(-fy, 0));
+    return (float)fmax(across, along);
+}
+
+static void iris_piece(const wo_table_pencils *p, const wo_table_node *node, field_point at,
+                       const float *s, const float *t, int count, const wo_table_rays *out)
+{
+    float along[WO_PENCIL_PIECE + WO_LANES] = {0};
+    float across[WO_PENCIL_PIECE + WO_LANES] = {0};
+    const float cf = (float)at.c;
+    const float sf = (float)at.s;
+    for (int i = 0; i < count; i++) {
+        along[i] = cf * s[i] + sf * t[i];
+        across[i] = cf * t[i] - sf * s[i];
+    }
+    p->eval(p->table, node, along, across, count, out);
+    const float fx = (float)p->options.focal_px;
+    const float fy = (float)(p->options.focal_px * p->options.stretch);
+    const float reach = (float)p->options.max_reach;
+    const float v_limit = (float)p->options.v_limit;
+    for (int i = 0; i < count; i++) {
+        const float a1 = (cf * out->ax[i] - sf * out->ay[i]) * fx;
+        const float a2 = (sf * out->ax[i] + cf * out->ay[i]) * fy;
+        const float b1 = (cf * out->bx[i] - sf * out->by[i]) * fx;
+        const float b2 = (sf * out->bx[i] + cf * out->by[i]) * fy;
+        const float far = sqrtf(a1 * a1 + a2 * a2) + v_limit * sqrtf(b1 * b1 + b2 * b2);
+        out->clip[i] = fmaxf(out->clip[i], far / reach);
+        out->ax[i] = a1;
+        out->ay[i] = a2;
+        out->bx[i] = b1;
+        out->by[i] = b2;
+    }
+}
+
+static void table_iris_rays(const void *self, double x, double y, int line, const float *s,
+                            const float *t, int count, const wo_iris_rays *out)
+{
+    const wo_table_pencils *p = self;
+    const field_point at = field_at(p, x, y);
+    wo_table_node node;
+    wo_lens_table_node(p->table, line, at.h, &node);
+    for (int i = 0; i < count; i += WO_PENCIL_PIECE) {
+        const int n = count - i < WO_PENCIL_PIECE ? count - i : WO_PENCIL_PIECE;
+        const wo_table_rays part = {out->ax + i, out->ay + i,     out->bx + i,
+                                    out->by + i, out->weight + i, out->clip + i};
+        iris_piece(p, &node, at, s + i, t + i, n, &part);
+    }
+    const double fx = (x - p->options.centre_x) / p->options.half_diagonal;
+    const double fy = (y - p->options.centre_y) / (p->options.half_diagonal * p->options.stretch);
+    for (int i = 0; p->has_doors && i < count; i++)
+        out->clip[i] =
+            fmaxf(out->clip[i], door_clip(&p->options.doors, fx, fy, (double)s[i], (double)t[i]));
 }
 
 static double table_reach(const void *self, double v_far, double v_near)
@@ -182,7 +249,7 @@ static void survey(wo_table_pencils *p, wo_table_facts *facts)
     for (int node = 0; node < table->lit; node++) {
         for (int line = 0; line < table->lines; line++) {
             float(*o)[POINTS] = out[line];
-            const wo_table_rays rays = {o[0], o[1], o[2], o[3], o[4]};
+            const wo_table_rays rays = {o[0], o[1], o[2], o[3], o[4], NULL};
             p->eval(table, &table->node[line * table->nodes + node], s, t, POINTS, &rays);
             for (int i = 0; i < POINTS; i++) {
                 p->uniform &= fabsf(o[4][i] - 1) < 1e-5f;
@@ -300,6 +367,11 @@ wo_status wo_table_pencils_create(const wo_context *context, const wo_lens_model
     facts->ideal = p->uniform && p->table->lines == 1 && facts->aberration_px < WO_IDEAL_PX;
     p->uniform &= shape.even;
     make_points(p, &shape);
+    status = wo_iris_grids_create(context, &shape, p->grids, error);
+    if (status != WO_OK) {
+        wo_table_pencils_destroy(context, &p);
+        return status;
+    }
     facts->wavelengths = p->table->lines;
     facts->degree = p->table->degree;
     facts->nodes = p->table->nodes;
@@ -312,12 +384,26 @@ wo_status wo_table_pencils_create(const wo_context *context, const wo_lens_model
 void wo_table_pencils_destroy(const wo_context *context, wo_table_pencils **pencils)
 {
     if (*pencils) {
-        if (!(*pencils)->borrowed)
+        if (!(*pencils)->borrowed) {
             wo_lens_table_destroy(context, &(*pencils)->table);
+            wo_iris_grids_destroy(context, (*pencils)->grids);
+        }
         wo_delete(context, (*pencils)->points);
     }
     wo_delete(context, *pencils);
     *pencils = NULL;
+}
+
+/* Have all field points that get light the same rays? */
+static bool same_nodes(const wo_lens_table *table)
+{
+    for (int line = 0; line < table->lines; line++) {
+        const wo_table_node *first = &table->node[line * table->nodes];
+        for (int i = 1; i < table->lit; i++)
+            if (memcmp(first, first + i, sizeof *first) != 0)
+                return false;
+    }
+    return true;
 }
 
 wo_lens wo_table_pencils_lens(const wo_table_pencils *pencils)
@@ -329,5 +415,10 @@ wo_lens wo_table_pencils_lens(const wo_table_pencils *pencils)
                      .colours = pencils->table->lines > 1,
                      .pencil = table_pencil,
                      .reach = table_reach,
-                     .px_per_dioptre = pencils->options.px_per_dioptre};
+                     .px_per_dioptre = pencils->options.px_per_dioptre,
+                     .iris = {.grids = pencils->grids,
+                              .same = !pencils->has_doors && same_nodes(pencils->table),
+                              .lines = pencils->table->lines,
+                              .line_weight = pencils->bands.weight,
+                              .rays = table_iris_rays}};
 }

@@ -7,25 +7,49 @@
 /* 1 - b.B is 0.5 or more but for rounding. */
 #define LEAST 0.25f
 
+/* One ray of the lens inside becomes one of the tilted lens. */
+static void tilt_ray(const wo_tilted_pencils *p, float a[2], float b[2])
+{
+    const float b0 = (float)p->b[0];
+    const float b1 = (float)p->b[1];
+    const float scale = 1 / fmaxf(1 - (b0 * b[0] + b1 * b[1]), LEAST);
+    const float along = (b0 * a[0] + b1 * a[1]) * scale;
+    for (int k = 0; k < 2; k++) {
+        a[k] += b[k] * along;
+        b[k] *= scale;
+    }
+}
+
+static void tilted_iris_rays(const void *self, double x, double y, int line, const float *s,
+                             const float *t, int count, const wo_iris_rays *out)
+{
+    const wo_tilted_pencils *p = self;
+    p->inside->iris.rays(p->inside->self, x, y, line, s, t, count, out);
+    for (int i = 0; i < count; i++) {
+        float a[2] = {out->ax[i], out->ay[i]};
+        float b[2] = {out->bx[i], out->by[i]};
+        tilt_ray(p, a, b);
+        out->ax[i] = a[0];
+        out->ay[i] = a[1];
+        out->bx[i] = b[0];
+        out->by[i] = b[1];
+    }
+}
+
 static void tilted_pencil(const void *self, double x, double y, unsigned set, int first,
                           wo_pencil_room *room, wo_pencil *out)
 {
     const wo_tilted_pencils *p = self;
     wo_pencil in;
     p->inside->pencil(p->inside->self, x, y, set, first, room, &in);
-    const float b0 = (float)p->b[0];
-    const float b1 = (float)p->b[1];
     for (int i = 0; i < in.count; i++) {
-        const float ax = in.ax[i];
-        const float ay = in.ay[i];
-        const float bx = in.bx[i];
-        const float by = in.by[i];
-        const float scale = 1 / fmaxf(1 - (b0 * bx + b1 * by), LEAST);
-        const float along = (b0 * ax + b1 * ay) * scale;
-        room->ax[i] = ax + bx * along;
-        room->ay[i] = ay + by * along;
-        room->bx[i] = bx * scale;
-        room->by[i] = by * scale;
+        float a[2] = {in.ax[i], in.ay[i]};
+        float b[2] = {in.bx[i], in.by[i]};
+        tilt_ray(p, a, b);
+        room->ax[i] = a[0];
+        room->ay[i] = a[1];
+        room->bx[i] = b[0];
+        room->by[i] = b[1];
     }
     *out = in;
     out->ax = room->ax;
@@ -68,6 +92,8 @@ wo_lens wo_tilted_pencils_lens(const wo_tilted_pencils *tilted)
     lens.reach = tilted_reach;
     if (lens.connect)
         lens.connect = tilted_connect;
+    if (lens.iris.rays)
+        lens.iris.rays = tilted_iris_rays;
     return lens;
 }
 

@@ -40,10 +40,16 @@ void WO_TABLE_EVAL(const wo_lens_table *table, const wo_table_node *node, const 
         const vf y2 = v_mul(y, y);
         vf weight = even_sum(node->weight, d, x, y2);
         weight = v_select(v_less(weight, v_set(0)), v_set(0), weight);
+        vf most = v_set(0);
         for (int k = 0; k < table->clips; k++) {
             const vf q = even_sum(node->clip[k], WO_TABLE_CLIP_DEGREE, x, y2);
-            weight = v_mask(v_less_equal(q, one), weight);
+            if (out->clip)
+                most = v_select(v_less(most, q), q, most);
+            else
+                weight = v_mask(v_less_equal(q, one), weight);
         }
+        if (out->clip)
+            v_store(out->clip + n, most);
         v_store(out->weight + n, weight);
         v_store(out->ax + n, even_sum(node->ax, d, x, y2));
         v_store(out->bx + n, even_sum(node->bx, d, x, y2));

@@ -94,6 +94,11 @@ void wo_aperture_destroy(const wo_context *context, wo_aperture_shape *shape);
    its light takes the place of areas. Does not fail. */
 void wo_aperture_sample(const wo_aperture_shape *shape, double s, double t, double u[2]);
 
+/* The point at part radius (0..1) of the way from the middle, or the obstruction, to the boundary,
+   in the direction that has the part turns (of the whole, any) of the area before it: squares of
+   radius times turns are areas, too. Not for kernels. Does not fail. */
+void wo_aperture_polar(const wo_aperture_shape *shape, double radius, double turns, double u[2]);
+
 /* Weight of a sample at this point: what apodization, edge, rings and grain let through. */
 double wo_aperture_weight(const wo_aperture_shape *shape, double x, double y);
 

@@ -63,6 +63,10 @@ void *wo_new(const wo_context *context, wo_error *error, size_t count, size_t si
 void *wo_new_large(const wo_context *context, wo_error *error, size_t count,
                    size_t size) WO_NODISCARD;
 
+/* The same, but not cleared: for arrays of which every byte is written before it is read. */
+void *wo_new_raw(const wo_context *context, wo_error *error, size_t count,
+                 size_t size) WO_NODISCARD;
+
 /* Gives back what these gave; NULL is legal. Any thread. */
 void wo_delete(const wo_context *context, void *memory);
 

@@ -5,11 +5,32 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <locale.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+const char *wo_io_shown(const char *path)
+{
+    const size_t length = strlen(path), most = 96;
+    return length > most ? path + (length - most) : path;
+}
+
+char *wo_io_copy_text(const char *text)
+{
+    const size_t bytes = strlen(text) + 1;
+    char *const copy = malloc(bytes);
+    if (copy)
+        memcpy(copy, text, bytes);
+    return copy;
+}
+
+static wo_status no_memory(wo_error *error)
+{
+    return wo_fail(error, WO_ERR_NOMEM, "no memory for an image file");
+}
 
 locale_t wo_io_plain_locale(void)
 {
@@ -23,6 +44,213 @@ void wo_io_restore_locale(locale_t before)
         return;
     const locale_t plain = uselocale(before);
     freelocale(plain);
+}
+
+/* Size. */
+
+static bool within_reach(wo_rect r)
+{
+    const int32_t most = WO_MAX_COORDINATE;
+    return r.x1 >= -most && r.y1 >= -most && r.x2 <= most && r.y2 <= most;
+}
+
+wo_status wo_io_check_size(const char *path, wo_rect data_window, wo_rect display_window,
+                           int64_t channels, uint64_t *total, wo_error *error)
+{
+    const wo_rect windows[] = {data_window, display_window};
+    for (size_t i = 0; i < WO_COUNT(windows); i++) {
+        const wo_rect r = windows[i];
+        const int64_t width = (int64_t)r.x2 - r.x1, height = (int64_t)r.y2 - r.y1;
+        if (width < 1 || height < 1 || width > WO_MAX_SIDE || height > WO_MAX_SIDE)
+            return wo_fail(error, WO_ERR_RANGE,
+                           "%s: %lld x %lld pixels, but 1 to %d a side are allowed",
+                           wo_io_shown(path), (long long)width, (long long)height, WO_MAX_SIDE);
+        if (!within_reach(r))
+            return wo_fail(error, WO_ERR_RANGE, "%s: a window lies beyond +-%d pixels",
+                           wo_io_shown(path), WO_MAX_COORDINATE);
+    }
+    if (channels < 1 || channels > WO_IO_MAX_CHANNELS)
+        return wo_fail(error, WO_ERR_RANGE, "%s: %lld channels, but 1 to %d are allowed",
+                       wo_io_shown(path), (long long)channels, WO_IO_MAX_CHANNELS);
+    *total += (uint64_t)wo_rect_width(data_window) * (uint64_t)wo_rect_height(data_window) *
+              (uint64_t)channels * sizeof(float);
+    if (*total > WO_IO_MAX_BYTES)
+        return wo_fail(error, WO_ERR_RANGE, "%s: pixels need more than %llu GiB of memory",
+                       wo_io_shown(path), (unsigned long long)(WO_IO_MAX_BYTES >> 30));
+    return WO_OK;
+}
+
+/* Files and parts. */
+
+void wo_io_part_clear(wo_io_part *part)
+{
+    if (!part)
+        return;
+    free(part->name);
+    for (int i = 0; part->channel_names && i < part->channels; i++)
+        free(part->channel_names[i]);
+    free(part->channel_names);
+    free(part->pixels);
+    free(part->colour_space);
+    for (size_t i = 0; i < part->attribute_count; i++) {
+        free(part->attributes[i].name);
+        free(part->attributes[i].text);
+        free(part->attributes[i].kind);
+    }
+    free(part->attributes);
+    *part = (wo_io_part){0};
+}
+
+void wo_io_file_destroy(wo_io_file **file)
+{
+    if (!file || !*file)
+        return;
+    for (size_t i = 0; i < (*file)->part_count; i++)
+        wo_io_part_clear(&(*file)->parts[i]);
+    free((*file)->parts);
+    free((*file)->format);
+    free(*file);
+    *file = NULL;
+}
+
+wo_status wo_io_file_create(size_t part_count, wo_io_file **file, wo_error *error)
+{
+    *file = NULL;
+    if (part_count < 1 || part_count > WO_IO_MAX_PARTS)
+        return wo_fail(error, WO_ERR_RANGE, "%zu parts, but a file holds 1 to %d", part_count,
+                       WO_IO_MAX_PARTS);
+    wo_io_file *made = calloc(1, sizeof *made);
+    if (!made)
+        return no_memory(error);
+    made->parts = calloc(part_count, sizeof *made->parts);
+    made->format = wo_io_copy_text("");
+    if (made->parts)
+        made->part_count = part_count;
+    if (!made->parts || !made->format) {
+        wo_io_file_destroy(&made);
+        return no_memory(error);
+    }
+    *file = made;
+    return WO_OK;
+}
+
+wo_status wo_io_part_head(wo_io_part *part, const char *name, wo_rect data_window,
+                          wo_rect display_window, const char *const *channel_names, int channels,
+                          wo_error *error)
+{
+    uint64_t bytes = 0;
+    wo_io_part_clear(part);
+    WO_TRY(wo_io_check_size(name && *name ? name : "image", data_window, display_window, channels,
+                            &bytes, error));
+    part->data_window = data_window;
+    part->display_window = display_window;
+    part->pixel_aspect = 1;
+    part->bits = 32;
+    part->is_float = true;
+    part->name = wo_io_copy_text(name ? name : "");
+    part->colour_space = wo_io_copy_text("");
+    part->channel_names = calloc((size_t)channels, sizeof *part->channel_names);
+    bool complete = part->name && part->colour_space && part->channel_names;
+    if (part->channel_names)
+        part->channels = channels;
+    for (int i = 0; complete && i < channels; i++)
+        complete = (part->channel_names[i] = wo_io_copy_text(channel_names[i])) != NULL;
+    if (!complete) {
+        wo_io_part_clear(part);
+        return no_memory(error);
+    }
+    return WO_OK;
+}
+
+wo_status wo_io_part_pixels(wo_io_part *part, wo_error *error)
+{
+    const size_t count = (size_t)wo_rect_width(part->data_window) *
+                         (size_t)wo_rect_height(part->data_window) * (size_t)part->channels;
+    part->pixels = calloc(count, sizeof *part->pixels);
+    if (!part->pixels)
+        return wo_fail(error, WO_ERR_NOMEM, "no memory for %d x %d pixels of %d channels",
+                       (int)wo_rect_width(part->data_window),
+                       (int)wo_rect_height(part->data_window), part->channels);
+    return WO_OK;
+}
+
+wo_status wo_io_part_init(wo_io_part *part, const char *name, wo_rect data_window,
+                          wo_rect display_window, const char *const *channel_names, int channels,
+                          wo_error *error)
+{
+    WO_TRY(
+        wo_io_part_head(part, name, data_window, display_window, channel_names, channels, error));
+    const wo_status status = wo_io_part_pixels(part, error);
+    if (status != WO_OK)
+        wo_io_part_clear(part);
+    return status;
+}
+
+/* Attributes. */
+
+const wo_io_attribute *wo_io_part_find(const wo_io_part *part, const char *name)
+{
+    for (size_t i = 0; i < part->attribute_count; i++)
+        if (!strcmp(part->attributes[i].name, name))
+            return &part->attributes[i];
+    return NULL;
+}
+
+wo_status wo_io_part_set(wo_io_part *part, const wo_io_attribute *attribute, wo_error *error)
+{
+    if (!attribute->name || !attribute->name[0])
+        return wo_fail(error, WO_ERR_ARGUMENT, "an attribute needs a name");
+    if (attribute->type == WO_IO_TEXT && !attribute->text)
+        return wo_fail(error, WO_ERR_ARGUMENT, "attribute %s has no text", attribute->name);
+    wo_io_attribute made = {.type = attribute->type, .number = attribute->number};
+    made.name = wo_io_copy_text(attribute->name);
+    made.kind = wo_io_copy_text(attribute->kind ? attribute->kind : "");
+    if (attribute->type == WO_IO_TEXT)
+        made.text = wo_io_copy_text(attribute->text);
+    bool complete = made.name && made.kind && (made.text || attribute->type != WO_IO_TEXT);
+
+    size_t index = 0;
+    while (index < part->attribute_count && strcmp(part->attributes[index].name, attribute->name))
+        index++;
+    if (complete && index == part->attribute_count) {
+        wo_io_attribute *const grown =
+            realloc(part->attributes, (index + 1) * sizeof *part->attributes);
+        complete = grown != NULL;
+        if (grown) {
+            part->attributes = grown;
+            grown[index] = (wo_io_attribute){0};
+            part->attribute_count++;
+        }
+    }
+    wo_io_attribute *const old = complete ? &part->attributes[index] : &made;
+    free(old->name);
+    free(old->text);
+    free(old->kind);
+    if (!complete)
+        return no_memory(error);
+    *old = made;
+    return WO_OK;
+}
+
+wo_status wo_io_part_add(wo_io_part *part, const char *name, wo_io_type type, double number,
+                         const char *text, const char *kind, wo_error *error)
+{
+    const wo_io_attribute attribute = {.name = (char *)(uintptr_t)name,
+                                       .type = type,
+                                       .number = number,
+                                       .text = (char *)(uintptr_t)text,
+                                       .kind = (char *)(uintptr_t)kind};
+    return wo_io_part_set(part, &attribute, error);
+}
+
+wo_status wo_io_part_set_number(wo_io_part *part, const char *name, double number, wo_error *error)
+{
+    return wo_io_part_add(part, name, WO_IO_FLOAT, number, NULL, NULL, error);
+}
+
+wo_status wo_io_part_set_text(wo_io_part *part, const char *name, const char *text, wo_error *error)
+{
+    return wo_io_part_add(part, name, WO_IO_TEXT, 0, text, NULL, error);
 }
 
 /* Formats. */

@@ -73,8 +73,7 @@ WO_NODISCARD wo_status wo_io_exr_read(const char *path, int fd, bool headers_onl
 WO_NODISCARD wo_status wo_io_exr_write(const char *path, int fd, const wo_io_part *parts,
                                        size_t part_count, wo_io_depth depth, wo_error *error);
 
-/* io_oiio.cc, by way of io_oiio_module.c: the first call of a program loads OpenImageIO. Any
-   thread. WO_ERR_LIBRARY when it cannot be loaded. */
+/* io_oiio.cc, by way of io_late.c */
 WO_NODISCARD wo_status wo_io_oiio_read(const char *path, const wo_io_format *format,
                                        bool headers_only, wo_io_file **file, wo_error *error);
 WO_NODISCARD wo_status wo_io_oiio_write(const char *path, int fd, const wo_io_format *format,

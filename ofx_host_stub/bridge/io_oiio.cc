@@ -19,8 +19,6 @@
 
 #include <unistd.h>
 
-#define WO_IO_EXPORT extern "C" __attribute__((visibility("default")))
-
 namespace
 {
 
@@ -438,24 +436,24 @@ wo_status read_exr_part(const char *path, int index, wo_io_part *part, wo_error 
 
 } // namespace
 
-WO_IO_EXPORT wo_status wo_io_oiio_read(const char *path, const wo_io_format *format,
-                                       bool headers_only, wo_io_file **file, wo_error *error)
+extern "C" wo_status wo_io_oiio_read(const char *path, const wo_io_format *format,
+                                     bool headers_only, wo_io_file **file, wo_error *error)
 {
     return wo_guard(error, __func__, [&]() -> wo_status {
         return read_file(path, format, headers_only, file, error);
     });
 }
 
-WO_IO_EXPORT wo_status wo_io_oiio_write(const char *path, int fd, const wo_io_format *format,
-                                        const wo_io_part *part, wo_io_depth depth, wo_error *error)
+extern "C" wo_status wo_io_oiio_write(const char *path, int fd, const wo_io_format *format,
+                                      const wo_io_part *part, wo_io_depth depth, wo_error *error)
 {
     return wo_guard(error, __func__, [&]() -> wo_status {
         return write_file(path, fd, format, part, depth, error);
     });
 }
 
-WO_IO_EXPORT wo_status wo_io_oiio_exr_pixels(const char *path, int part_index, wo_io_part *part,
-                                             wo_error *error)
+extern "C" wo_status wo_io_oiio_exr_pixels(const char *path, int part_index, wo_io_part *part,
+                                           wo_error *error)
 {
     return wo_guard(error, __func__,
                     [&]() -> wo_status { return read_exr_part(path, part_index, part, error); });

@@ -22,6 +22,7 @@ typedef struct set {
     wo_host_instance *instance;
     wo_image reference;
     wo_image converged[WO_BENCH_METHODS]; /* data NULL: there is none */
+    double left[WO_BENCH_METHODS];        /* noise that these say they have; 0 = not known */
 } set;
 
 /* One render. */
@@ -145,8 +146,11 @@ static wo_status add_run(set *s, int method, wo_bench_point *p, const take *t, w
     wo_picture_error result, own;
     double rmse = NAN, sampling = NAN;
     WO_TRY(difference(&s->reference, &t->picture, s->job->bench->crop, &result, &rmse, error));
-    if (s->converged[method].data)
+    if (s->converged[method].data) {
         WO_TRY(difference(&s->converged[method], &t->picture, 0, &own, &sampling, error));
+        /* What the converged picture is wrong by itself is not this one's error. */
+        sampling = sqrt(fmax(sampling * sampling - s->left[method] * s->left[method], 0));
+    }
     const double estimate = reported(t, "estimated_error.all");
     const double own_seconds = reported(t, "seconds.total");
     p->wall_seconds = p->runs ? fmin(p->wall_seconds, t->wall_seconds) : t->wall_seconds;
@@ -245,6 +249,8 @@ static wo_status render_converged(set *s, wo_error *error)
         if (status == WO_OK) /* is every number of it finite? */
             status = difference(&s->reference, &t.picture, 0, &itself, &none, &why);
         if (status == WO_OK) {
+            const double left = reported(&t, "estimated_error.all");
+            s->left[m] = isnan(left) ? 0 : left;
             s->converged[m] = t.picture;
             t.picture = (wo_image){0};
         }

@@ -2,31 +2,15 @@
 /* Copyright the WideOpen authors */
 #include "session.h"
 
+#include "bridge/beside.h"
 #include "command.h"
 
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 enum { DIRECTORIES_MAX = 64 };
-
-/* The folder Plugins beside the running program; false when the system does not tell where that
-   is. */
-static bool beside_program(char *buffer, size_t size)
-{
-    const ssize_t length = readlink("/proc/self/exe", buffer, size - 1);
-    if (length <= 0)
-        return false;
-    buffer[length] = '\0';
-    char *const slash = strrchr(buffer, '/');
-    const char name[] = "/Plugins";
-    if (!slash || (size_t)(slash - buffer) + sizeof name > size)
-        return false;
-    memcpy(slash, name, sizeof name);
-    return true;
-}
 
 static bool is_directory(const char *path)
 {
@@ -61,7 +45,7 @@ int wo_session_open(const wo_args *args, wo_host_config config, wo_host **host)
         directories[count++] = directory;
     }
     char beside[PATH_MAX];
-    if (beside_program(beside, sizeof beside) && is_directory(beside))
+    if (wo_beside_program("Plugins", beside, sizeof beside) && is_directory(beside))
         directories[count++] = beside;
     config.directories = directories;
     config.directory_count = count;

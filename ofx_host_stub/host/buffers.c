@@ -151,10 +151,12 @@ void wo_buffer_check(const wo_frame *frame, const wo_buffer *buffer, wo_rect win
 void wo_convert_row(const float *from, int32_t from_components, float *to, int32_t to_components,
                     int32_t count)
 {
+    if (from_components == to_components) {
+        memcpy(to, from, (size_t)count * (size_t)to_components * sizeof *to);
+        return;
+    }
     for (int32_t i = 0; i < count; i++, from += from_components, to += to_components) {
-        if (from_components == to_components) {
-            memcpy(to, from, (size_t)to_components * sizeof *to);
-        } else if (to_components == 1) {
+        if (to_components == 1) {
             to[0] = from_components == 4 ? from[3] : from[0];
         } else if (from_components == 1) {
             to[0] = to[1] = to[2] = from[0];

@@ -24,7 +24,8 @@ struct wo_block {
 
 static wo_block *buckets[BUCKETS]; /* under the process lock; see process.c */
 
-void *wo_guarded_alloc(size_t bytes)
+/* Between its guards the memory is as it comes. */
+static void *guarded(size_t bytes)
 {
     if (bytes > SIZE_MAX - 2 * GUARD - ALIGNMENT)
         return NULL;
@@ -33,9 +34,14 @@ void *wo_guarded_alloc(size_t bytes)
     if (!base)
         return NULL;
     memset(base, GUARD_BYTE, GUARD);
-    memset(base + GUARD, 0, bytes);
     memset(base + GUARD + bytes, GUARD_BYTE, whole - GUARD - bytes);
     return base + GUARD;
+}
+
+void *wo_guarded_alloc(size_t bytes)
+{
+    void *const memory = guarded(bytes);
+    return memory ? memset(memory, 0, bytes) : NULL;
 }
 
 bool wo_guarded_intact(const void *memory, size_t bytes)
@@ -63,7 +69,7 @@ static wo_block *block_new(const wo_object *object, size_t bytes)
 {
     const wo_frame *frame = wo_frame_now();
     wo_block *block = calloc(1, sizeof *block);
-    void *data = wo_guarded_alloc(bytes);
+    void *data = guarded(bytes); /* the standard promises no zeros */
     if (!block || !data) {
         free(block);
         wo_guarded_free(data);

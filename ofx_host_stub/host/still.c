@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
-#include "host.h"
+#include "internal.h"
 
 #include <math.h>
 
@@ -52,6 +52,10 @@ wo_status wo_host_still_pixels(void *user, const wo_host_request *request, const
     if (from->components != image->components)
         return wo_fail(error, WO_ERR_ARGUMENT, "the picture has %d components, not %d",
                        from->components, image->components);
+    if (request->scale_x == 1 && request->scale_y == 1) {
+        wo_copy_window(from, image, wo_rect_intersect(w, b));
+        return WO_OK;
+    }
     for (int32_t y = w.y1; y < w.y2; y++) {
         int32_t y1, y2;
         covered(y, request->scale_y, b.y1, b.y2, &y1, &y2);

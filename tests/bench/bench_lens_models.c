@@ -33,7 +33,8 @@ static double time_table(const wo_lens_table *table, wo_table_function *eval)
         wo_table_node node;
         /* 64 rays of one field point and wavelength, as in a render of some hundred rays. */
         for (int i = 0; i < RAYS; i += 64) {
-            const wo_table_rays part = {out[0] + i, out[1] + i, out[2] + i, out[3] + i, out[4] + i};
+            const wo_table_rays part = {out[0] + i, out[1] + i, out[2] + i,
+                                        out[3] + i, out[4] + i, NULL};
             wo_lens_table_node(table, i / 64 % table->lines, table->field_max * i / RAYS, &node);
             eval(table, &node, s + i, t + i, 64, &part);
         }

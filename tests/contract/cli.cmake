@@ -28,3 +28,12 @@ add_test(NAME contract.camera
     COMMAND ${CMAKE_CURRENT_LIST_DIR}/camera.sh $<TARGET_FILE:wideopen> $<TARGET_FILE:exr_tag>
             ${CMAKE_CURRENT_BINARY_DIR}/camera_work)
 set_tests_properties(contract.camera PROPERTIES TIMEOUT 600)
+
+# Other tools beside ours: the script alone, without the tools. It is no code of ours that runs there.
+if(NOT WO_SANITIZE)
+    add_test(NAME contract.peers_without_sanitizers
+        COMMAND ${CMAKE_CURRENT_LIST_DIR}/peers.sh ${PROJECT_SOURCE_DIR}/footage/peers.sh
+                $<TARGET_FILE:wideopen> ${CMAKE_CURRENT_BINARY_DIR}/peers_work)
+    set_tests_properties(contract.peers_without_sanitizers PROPERTIES
+        TIMEOUT 300 SKIP_RETURN_CODE 77)
+endif()

@@ -16,8 +16,8 @@ BEGIN {
     words("assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp " \
           "signal stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn " \
           "string tgmath time uchar wchar wctype", standard)
-    words("dirent dlfcn elf fcntl fnmatch ftw glob langinfo libgen poll pthread sched semaphore " \
-          "spawn strings termios threads unistd", system_header)
+    words("dirent dlfcn elf fcntl fnmatch ftw glob langinfo libgen malloc poll pthread sched " \
+          "semaphore spawn strings termios threads unistd", system_header)
     words("immintrin x86intrin cpuid arm_neon arm_sve", vector)
     words("printf vprintf fprintf vfprintf dprintf vdprintf puts fputs putc fputc putchar fwrite " \
           "perror fopen fdopen freopen fflush stdout stderr stdin", printing)

@@ -25,9 +25,8 @@ static wo_image render_with(const scene *s, unsigned leave_out, wo_report *repor
     wo_lens_rays_destroy(&context, &plan->rays);
     const int32_t margin = plan->setup.margin;
     assert_int_equal(wo_lens_rays_create(&context, &plan->stack, &plan->lens,
-                                         wo_rect_grow(plan->window, margin, margin),
-                                         plan->setup.reach * plan->setup.tilt, leave_out,
-                                         &plan->rays, NULL),
+                                         wo_rect_grow(plan->window, margin, margin), plan->reach,
+                                         leave_out, &plan->rays, NULL),
                      WO_OK);
     wo_image out = picture_make(s->geometry.extent, 4);
     assert_int_equal(wo_lens_blur.render(plan, args.window, &out, report, NULL), WO_OK);

@@ -6,8 +6,8 @@ foreach(name IN ITEMS image_io image_formats image_faults image_memory colour pi
     target_link_libraries(test_${name} PRIVATE wo_bridge wo_options cmocka Threads::Threads m)
     add_test(NAME unit.${name} COMMAND test_${name})
 endforeach()
-# With OpenImageIO linked, so that our allocations on its behalf are wrapped, too.
-target_link_libraries(test_image_memory PRIVATE wo_oiio_objects)
+# Linked, not loaded late: so the allocations of this file of the bridge can fail, too.
+target_link_libraries(test_image_memory PRIVATE wo_oiio)
 target_link_options(test_image_memory PRIVATE
     -Wl,--wrap=malloc -Wl,--wrap=calloc -Wl,--wrap=realloc)
 set_tests_properties(unit.image_memory PROPERTIES

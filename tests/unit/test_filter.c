@@ -63,7 +63,9 @@ static void discs_blur_as_circles_do(void **state)
         double moment = 0;
         for (int y = -22; y <= 22; y++)
             for (int x = -22; x <= 22; x++) {
-                const double w = fmin(fmax((double)reach - hypot(x, y) + 0.5, 0), 1);
+                const double steep = 1 - fmin((double)reach - 0.5, 1) / 4;
+                const double t = ((double)reach + 0.5 - hypot(x, y)) * steep;
+                const double w = t < 0 ? 0 : fmin(t * t, 1);
                 sum += w;
                 moment += w * x * x;
             }

@@ -154,6 +154,35 @@ static void all_light_arrives(void **state)
     wo_thin_pencils_destroy(&plain, &pencils);
 }
 
+/* A surface before the focus, beside the disc: rays of the disc's far side go through it, and it is
+   not between the pixel and the highlight. */
+static void what_is_near_hides_from_the_other_side(void **state)
+{
+    (void)state;
+    wo_thin_pencils *pencils = pencils_make(10);
+    const wo_lens lens = wo_thin_pencils_lens(pencils);
+    wo_sheet sheets[2] = {sheet_make(-0.8f), sheet_make(0.8f)};
+    for (int32_t i = 0; i < WIDTH * HEIGHT; i++)
+        if (i % WIDTH + area.x1 < 10)
+            sheets[1].v[i] = NAN;
+    sheets[0].c[at(0, 0)][0] = 1004;
+    wo_highlights highlights = take(sheets, 2, &lens);
+    uint8_t opaque[WIDTH * HEIGHT];
+    memset(opaque, 1, sizeof opaque);
+    wo_stack stack;
+    assert_int_equal(wo_stack_create(&plain, sheets, 2, opaque, area, area, &stack, NULL), WO_OK);
+    float sums[WO_TILE_HEIGHT][WO_TILE_WIDTH][3] = {{{0}}};
+    const wo_rect tile = {0, 0, WO_TILE_WIDTH, WO_TILE_HEIGHT};
+    wo_highlights_add(&highlights, &stack, &lens, tile, 0.8f, sums);
+    for (int x = 0; x < 8; x++)
+        assert_int_equal(sums[0][x][0] > 0, x < 5);
+    wo_highlights_destroy(&plain, &highlights);
+    wo_stack_destroy(&plain, &stack);
+    for (int i = 0; i < 2; i++)
+        wo_sheet_destroy(&plain, &sheets[i]);
+    wo_thin_pencils_destroy(&plain, &pencils);
+}
+
 /* Many bright pixels together are an area of light and stay, also in the corner of the picture. */
 static void areas_are_left_alone(void **state)
 {
@@ -218,6 +247,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_above_the_level_is_taken),
         cmocka_unit_test(all_light_arrives),
+        cmocka_unit_test(what_is_near_hides_from_the_other_side),
         cmocka_unit_test(areas_are_left_alone),
         cmocka_unit_test(shares_are_cheap),
         cmocka_unit_test(lenses_that_cannot_connect),

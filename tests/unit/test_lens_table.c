@@ -36,7 +36,7 @@ static comparison compare(const wo_lens_table *table, const wo_lens_model *model
         const float s[16] = {(float)u[0]};
         const float t[16] = {(float)u[1]};
         float out[5][16];
-        const wo_table_rays rays = {out[0], out[1], out[2], out[3], out[4]};
+        const wo_table_rays rays = {out[0], out[1], out[2], out[3], out[4], NULL};
         wo_table_eval_base(table, &node, s, t, 1, &rays);
         c.disagreed += (most <= 1) != (out[4][0] > 0);
         if (most > 1)

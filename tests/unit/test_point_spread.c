@@ -5,6 +5,8 @@
 #include "defocus/lens_rays.h"
 
 #include "near.h"
+#include "optics/lens_choice.h"
+#include "optics/pencil_table.h"
 #include "scenes.h"
 
 static const wo_context plain = WO_CONTEXT_INIT;
@@ -17,6 +19,36 @@ static wo_thin_pencils *pencils_of(const wo_aperture *aperture, double stretch, 
     assert_int_equal(
         wo_thin_pencils_create(&plain, &thin, aperture, stretch, 256, 3, &pencils, NULL), WO_OK);
     *lens = wo_thin_pencils_lens(pencils);
+    return pencils;
+}
+
+/* The same lens by way of a table. */
+static wo_table_pencils *table_of(const wo_aperture *aperture, double stretch, wo_lens *lens)
+{
+    static const double nm[] = {WO_NM_D};
+    const wo_lens_choice choice = {.kind = WO_LENS_DIAGRAM,
+                                   .diagram = WO_DIAGRAM_PERFECT,
+                                   .focal_mm = 50,
+                                   .f_number = 25,
+                                   .half_field = 0.3,
+                                   .nm = nm,
+                                   .lines = 1};
+    const wo_table_pencil_options options = {.aperture = aperture,
+                                             .focal_px = 1000,
+                                             .stretch = stretch,
+                                             .px_per_dioptre = stretch,
+                                             .max_reach = 200,
+                                             .v_limit = 50,
+                                             .half_diagonal = 300,
+                                             .count = 256,
+                                             .wavelengths = 1};
+    wo_chosen_lens chosen;
+    wo_table_facts facts;
+    wo_table_pencils *pencils = NULL;
+    assert_int_equal(wo_lens_choose(&choice, &chosen, NULL), WO_OK);
+    assert_int_equal(
+        wo_table_pencils_create(&plain, &chosen.model, &options, &pencils, &facts, NULL), WO_OK);
+    *lens = wo_table_pencils_lens(pencils);
     return pencils;
 }
 
@@ -72,10 +104,14 @@ static void energy_and_size_are_those_of_the_rays(void **state)
     (void)state;
     for (size_t a = 0; a < WO_COUNT(apertures); a++) {
         for (int connect = 0; connect < 2; connect++) {
+            const double stretch = a == 1 ? 1.5 : 1;
             wo_lens lens;
-            wo_thin_pencils *pencils = pencils_of(&apertures[a], a == 1 ? 1.5 : 1, &lens);
-            if (!connect)
-                lens.connect = NULL;
+            wo_thin_pencils *pencils = NULL;
+            wo_table_pencils *table = NULL;
+            if (connect)
+                pencils = pencils_of(&apertures[a], stretch, &lens);
+            else
+                table = table_of(&apertures[a], stretch, &lens);
             for (size_t i = 0; i < WO_COUNT(radii); i++) {
                 wo_point_raster raster;
                 double m[4];
@@ -98,6 +134,7 @@ static void energy_and_size_are_those_of_the_rays(void **state)
                 wo_point_raster_destroy(&plain, &raster);
             }
             wo_thin_pencils_destroy(&plain, &pencils);
+            wo_table_pencils_destroy(&plain, &table);
         }
     }
 }
