@@ -1,4 +1,8 @@
 # Timings; built with the tests so that they stay compilable, run by hand: bin/bench_lens_blur --help.
+# With sanitizers they would say nothing.
+if(WO_SANITIZE)
+    return()
+endif()
 add_executable(bench_lens_blur ${CMAKE_CURRENT_LIST_DIR}/bench_lens_blur.c)
 target_compile_definitions(bench_lens_blur PRIVATE _POSIX_C_SOURCE=200809L)
 target_link_libraries(bench_lens_blur PRIVATE wo_blur_footage wo_test_scenes)

@@ -3,14 +3,13 @@
 
 /* What a scene costs that needs nothing: all in focus, against copies of the same picture by as
    many threads. One table on stdout, best of several, each into memory that was written before. */
+#include "bench_args.h"
 #include "defocus/sheet.h"
 #include "effects/lens_blur_plan.h"
 #include "tests/property/scenes.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 typedef struct copy_job {
     const wo_image *from, *to;
@@ -39,24 +38,10 @@ static void read_row(void *user, size_t index, unsigned worker)
 
 int main(int argc, char **argv)
 {
-    unsigned threads = (unsigned)sysconf(_SC_NPROCESSORS_ONLN);
-    int width = 1920;
-    int repeats = 20;
-    for (int i = 1; i < argc; i++) {
-        if (strcmp(argv[i], "--threads") == 0 && i + 1 < argc) {
-            threads = (unsigned)strtoul(argv[++i], NULL, 10);
-        } else if (strcmp(argv[i], "--width") == 0 && i + 1 < argc) {
-            width = atoi(argv[++i]);
-        } else if (strcmp(argv[i], "--repeats") == 0 && i + 1 < argc) {
-            repeats = atoi(argv[++i]);
-        } else {
-            fprintf(stderr, "usage: bench_copy [--threads N] [--width PX] [--repeats N]\n");
-            return 2;
-        }
-    }
+    const bench_args args = bench_args_read("bench_copy", argc, argv, 1920, 20);
     wo_context context = WO_CONTEXT_INIT;
-    context.runner = threads_runner(&threads);
-    const wo_rect extent = {0, 0, width, width * 9 / 16};
+    context.runner = threads_runner(&args.threads);
+    const wo_rect extent = {0, 0, args.width, args.width * 9 / 16};
     const size_t rows = (size_t)wo_rect_height(extent);
     scene s;
     scene_init(&s, extent);
@@ -66,7 +51,7 @@ int main(int argc, char **argv)
     copy_job job = {&s.clip[0], &out};
     enum { MEMCPY, READ, LENS_BLUR, ROWS };
     double best[ROWS] = {1e30, 1e30, 1e30};
-    for (int i = 0; i < repeats; i++) {
+    for (int i = 0; i < args.repeats; i++) {
         double start = wo_seconds();
         wo_run(&context, copy_row, &job, rows);
         best[MEMCPY] = fmin(best[MEMCPY], wo_seconds() - start);
@@ -88,7 +73,7 @@ int main(int argc, char **argv)
     }
     static const char *const names[ROWS] = {"memcpy of the picture", "reading it, clean",
                                             "LensBlur, all in focus"};
-    printf("%u threads, %d x %d px\n", threads, wo_rect_width(extent), wo_rect_height(extent));
+    printf("%u threads, %d x %d px\n", args.threads, wo_rect_width(extent), wo_rect_height(extent));
     for (int i = 0; i < ROWS; i++)
         printf("%-24s %7.2f ms %6.2f of memcpy %6.2f of reading\n", names[i], 1e3 * best[i],
                best[i] / best[MEMCPY], best[i] / best[READ]);

@@ -4,13 +4,12 @@
 /* How the time of the method spread grows with the radius: one table on stdout, and the exponent of
    the line through log(time) over log(radius). One distance, everything blurred alike, the stage of
    rendering alone: point spreads, sorting, spreading, laying. Best of several. */
+#include "bench_args.h"
 #include "defocus/renderer.h"
 #include "tests/property/scenes.h"
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
 static wo_image noise(wo_rect extent)
 {
@@ -56,28 +55,14 @@ static double measure(const wo_context *context, wo_rect extent, double radius, 
 int main(int argc, char **argv)
 {
     static const double radii[] = {25, 50, 100, 200};
-    unsigned threads = (unsigned)sysconf(_SC_NPROCESSORS_ONLN);
-    int width = 960;
-    int repeats = 3;
-    for (int i = 1; i < argc; i++) {
-        if (strcmp(argv[i], "--threads") == 0 && i + 1 < argc) {
-            threads = (unsigned)strtoul(argv[++i], NULL, 10);
-        } else if (strcmp(argv[i], "--width") == 0 && i + 1 < argc) {
-            width = atoi(argv[++i]);
-        } else if (strcmp(argv[i], "--repeats") == 0 && i + 1 < argc) {
-            repeats = atoi(argv[++i]);
-        } else {
-            fprintf(stderr, "usage: bench_spread [--threads N] [--width PX] [--repeats N]\n");
-            return 2;
-        }
-    }
+    const bench_args args = bench_args_read("bench_spread", argc, argv, 960, 3);
     wo_context context = WO_CONTEXT_INIT;
-    context.runner = threads_runner(&threads);
-    const wo_rect extent = {0, 0, width, width * 9 / 16};
-    printf("%u threads, %d x %d px\n", threads, extent.x2, extent.y2);
+    context.runner = threads_runner(&args.threads);
+    const wo_rect extent = {0, 0, args.width, args.width * 9 / 16};
+    printf("%u threads, %d x %d px\n", args.threads, extent.x2, extent.y2);
     double sums[4] = {0};
     for (size_t i = 0; i < WO_COUNT(radii); i++) {
-        const double t = measure(&context, extent, radii[i], WO_METHOD_SPREAD, repeats);
+        const double t = measure(&context, extent, radii[i], WO_METHOD_SPREAD, args.repeats);
         const double x = log(radii[i]);
         const double y = log(t);
         printf("radius %5.0f px %8.3f s\n", radii[i], t);

@@ -42,6 +42,7 @@ foreach(name IN ITEMS describe scan values params render misdeeds threads memory
     target_link_libraries(test_host_${name} PRIVATE wo_host_fixture)
     add_test(NAME contract.host_${name} COMMAND test_host_${name})
 endforeach()
+set_tests_properties(contract.host_threads PROPERTIES LABELS threads)
 # Every allocation of the host goes through functions that can be told to fail.
 foreach(function IN ITEMS malloc calloc realloc aligned_alloc)
     target_link_options(test_host_memory PRIVATE -Wl,--wrap=${function})

@@ -7,6 +7,7 @@ target_link_libraries(wo_blur_footage PUBLIC
     wo_footage wo_core wo_bridge wo_base wo_options cmocka m)
 
 add_executable(test_golden ${CMAKE_CURRENT_LIST_DIR}/test_golden.c)
+target_include_directories(test_golden PRIVATE ${PROJECT_SOURCE_DIR})
 target_link_libraries(test_golden PRIVATE wo_blur_footage)
 add_test(NAME golden.footage COMMAND test_golden)
 set_tests_properties(golden.footage PROPERTIES TIMEOUT 600)

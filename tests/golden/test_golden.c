@@ -5,6 +5,7 @@
 #include "blur_footage.h"
 #include "bridge/picture.h"
 #include "defocus/renderer.h"
+#include "tests/property/cases.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -77,30 +78,19 @@ static void check_scene(const char *scene, double psnr_layers, double psnr_singl
     wo_footage_destroy(&context, &set);
 }
 
-static void still_life(void **state)
+static void footage(void **state)
 {
     (void)state;
-    check_scene("still-life", 39, 36.5);
-}
-
-static void fence(void **state)
-{
-    (void)state;
-    check_scene("fence", 38, 33.5);
-}
-
-static void slanted_plane(void **state)
-{
-    (void)state;
-    check_scene("slanted-plane", 33, 33);
+    static const struct {
+        const char *scene;
+        double layers, single;
+    } bars[] = {{"fence", 38, 33.5}, {"still-life", 39, 36.5}, {"slanted-plane", 33, 33}};
+    for (size_t i = 0; i < (size_t)cases_of(WO_COUNT(bars), 1); i++)
+        check_scene(bars[i].scene, bars[i].layers, bars[i].single);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(still_life),
-        cmocka_unit_test(fence),
-        cmocka_unit_test(slanted_plane),
-    };
+    const struct CMUnitTest tests[] = {cmocka_unit_test(footage)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -188,6 +188,50 @@ wo_image scene_render(const scene *s, wo_report *report)
     return out;
 }
 
+wo_rect random_window(rng *r, wo_rect in, int32_t width, int32_t height)
+{
+    wo_rect window = {rng_int(r, in.x1, in.x2 - 1), rng_int(r, in.y1, in.y2 - 1), 0, 0};
+    window.x2 = rng_int(r, window.x1 + 1, window.x1 + width);
+    window.y2 = rng_int(r, window.y1 + 1, window.y1 + height);
+    return window;
+}
+
+/* A view of the part of a picture that lies in r. */
+static wo_image part_of(const wo_image *picture, wo_rect r)
+{
+    wo_image part = *picture;
+    r = wo_rect_intersect(r, picture->bounds);
+    if (!picture->data || wo_rect_empty(r))
+        return (wo_image){0};
+    part.data = wo_image_at(picture, r.x1, r.y1);
+    part.bounds = r;
+    return part;
+}
+
+void scene_check_window(const scene *s, const wo_context *context, wo_rect window,
+                        const wo_image *whole)
+{
+    scene cut = *s;
+    const wo_plan_args args = scene_args(s, window);
+    for (size_t clip = 0; clip < WO_LENS_BLUR_CLIPS; clip++) {
+        wo_rect needed;
+        assert_int_equal(
+            wo_lens_blur.region(&s->params, &args.geometry, window, clip, &needed, NULL), WO_OK);
+        cut.clip[clip] = part_of(&s->clip[clip], needed);
+        assert_true(!s->clip[clip].data || cut.clip[clip].data);
+    }
+    wo_image out = picture_make(window, 4);
+    assert_int_equal(scene_run(&cut, context, window, &out, NULL, NULL), WO_OK);
+    const wo_rect extent = s->geometry.extent;
+    assert_true(picture_same_bytes(&out, whole, wo_rect_intersect(window, extent)));
+    for (int32_t y = window.y1; y < window.y2; y++)
+        for (int32_t x = window.x1; x < window.x2; x++)
+            if (!wo_rect_contains(extent, (wo_rect){x, y, x + 1, y + 1}))
+                for (int k = 0; k < 4; k++)
+                    assert_true(wo_image_at(&out, x, y)[k] == 0);
+    picture_free(&out);
+}
+
 /* A smooth pattern of three colours. */
 static void pattern(float *c, int32_t x, int32_t y, double phase, double level)
 {

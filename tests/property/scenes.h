@@ -62,6 +62,13 @@ void scene_fill_busy(scene *s, uint64_t seed);
 /* Source and Depth, and a second layer behind holes: coverage 0..1 in the front layer. */
 void scene_fill_layers(scene *s, uint64_t seed);
 
+/* A window with its first corner in a rectangle and sides of 1..width and 1..height px. */
+wo_rect random_window(rng *r, wo_rect in, int32_t width, int32_t height);
+/* Renders a window, out of no more of each clip than region() asks for: the same bytes as in the
+   picture of the whole extent, and zero beyond it. */
+void scene_check_window(const scene *s, const wo_context *context, wo_rect window,
+                        const wo_image *whole);
+
 /* count threads for each run; plain data, needs no end. */
 wo_runner threads_runner(const unsigned *count);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
 #include "blur_footage.h"
+#include "cases.h"
 #include "defocus/renderer.h"
 #include "footage.h"
 #include "near.h"
@@ -58,7 +59,7 @@ static void opaque_stays_opaque(void **state)
 {
     (void)state;
     wo_error error = {WO_OK, ""};
-    for (size_t i = 0; wo_footage_scene_at(i); i++) {
+    for (size_t i = (size_t)cases_of(0, 1); wo_footage_scene_at(i); i += (size_t)cases_of(1, 2)) {
         const wo_footage_options options = {.scene = wo_footage_scene_at(i)->name,
                                             .width = 66,
                                             .height = 37,

@@ -4,6 +4,7 @@
 /* The method filter: what must hold whatever the picture is, and how near it comes to rays. */
 #include "effects/lens_blur_plan.h"
 
+#include "cases.h"
 #include "near.h"
 #include "optics/lens_choice.h"
 #include "scenes.h"
@@ -267,18 +268,12 @@ static void tiles_threads_and_masks_change_nothing(void **state)
         scene s;
         scene_make(&s, kind);
         wo_image whole = scene_render(&s, NULL);
-        for (int n = 0; n < 10; n++) {
+        for (int n = 0; n < cases_of(10, 3); n++) {
             const unsigned threads = (unsigned)n % 4 + 1;
             wo_context context = WO_CONTEXT_INIT;
             context.runner = threads_runner(&threads);
-            wo_rect window = {rng_int(&r, frame.x1, frame.x2 - 1),
-                              rng_int(&r, frame.y1, frame.y2 - 1), 0, 0};
-            window.x2 = rng_int(&r, window.x1 + 1, frame.x2);
-            window.y2 = rng_int(&r, window.y1 + 1, frame.y2);
-            wo_image out = picture_make(n == 0 ? frame : window, 4);
-            assert_int_equal(scene_run(&s, &context, out.bounds, &out, NULL, NULL), WO_OK);
-            assert_true(picture_same_bytes(&out, &whole, out.bounds));
-            picture_free(&out);
+            scene_check_window(&s, &context, n == 1 ? frame : random_window(&r, frame, 80, 60),
+                               &whole);
         }
         /* Where the mask is 1 the picture is the same, whatever tiles were left out. */
         wo_image *const mask = scene_clip(&s, WO_CLIP_MASK, 1);

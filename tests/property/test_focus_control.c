@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
+#include "cases.h"
 #include "focus/focus.h"
 #include "near.h"
 #include "optics/lens_choice.h"
@@ -179,48 +180,19 @@ static void scene_of_way(scene *s, int way, wo_rect extent)
                 way == 4 ? (x % 7 ? 2 + 0.01f * (float)y : NAN) : (float)(x - y) * 0.05f;
 }
 
-static wo_image part_of(const wo_image *picture, wo_rect r)
-{
-    wo_image part = *picture;
-    r = wo_rect_intersect(r, picture->bounds);
-    if (!picture->data || wo_rect_empty(r))
-        return (wo_image){0};
-    part.data = wo_image_at(picture, r.x1, r.y1);
-    part.bounds = r;
-    return part;
-}
-
 static void tiles_are_the_whole(void **state)
 {
     (void)state;
     const wo_context context = WO_CONTEXT_INIT;
-    const wo_rect frame = {-21, 9, 190, 110};
+    const wo_rect frame = {-21, 9, 140, 90};
     rng r = {7};
     for (int way = 0; way < WAYS; way++) {
         scene s;
         scene_of_way(&s, way, frame);
         wo_image whole = scene_render(&s, NULL);
         assert_true(picture_finite(&whole));
-        for (int n = 0; n < 6; n++) {
-            wo_rect window = {rng_int(&r, frame.x1, frame.x2 - 1),
-                              rng_int(&r, frame.y1, frame.y2 - 1), 0, 0};
-            window.x2 = rng_int(&r, window.x1 + 1, window.x1 + 50);
-            window.y2 = rng_int(&r, window.y1 + 1, window.y1 + 40);
-            scene cut = s;
-            for (size_t clip = 0; clip < WO_LENS_BLUR_CLIPS; clip++) {
-                wo_rect needed;
-                const wo_plan_args args = scene_args(&s, window);
-                assert_int_equal(
-                    wo_lens_blur.region(&s.params, &args.geometry, window, clip, &needed, NULL),
-                    WO_OK);
-                cut.clip[clip] = part_of(&s.clip[clip], needed);
-                assert_true(!s.clip[clip].data || cut.clip[clip].data);
-            }
-            wo_image out = picture_make(window, 4);
-            assert_int_equal(scene_run(&cut, &context, window, &out, NULL, NULL), WO_OK);
-            assert_true(picture_same_bytes(&out, &whole, wo_rect_intersect(window, frame)));
-            picture_free(&out);
-        }
+        for (int n = 0; n < cases_of(6, 3); n++)
+            scene_check_window(&s, &context, random_window(&r, frame, 50, 40), &whole);
         picture_free(&whole);
         scene_free(&s);
     }

@@ -44,6 +44,7 @@ static scene busy(wo_rect extent)
     scene_init(&s, extent);
     scene_fill_layers(&s, 5);
     s.params.samples = 16;
+    s.params.max_radius = 40; /* to plan for 100 px around it would cost most of the time */
     return s;
 }
 

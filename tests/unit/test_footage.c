@@ -102,7 +102,7 @@ static bool same_set(const wo_footage *a, const wo_footage *b)
 static void threads_do_not_matter_seeds_do(void **state)
 {
     (void)state;
-    static const char *const names[] = {"still-life", "night-lights"};
+    static const char *const names[] = {"fence", "night-lights"};
     for (size_t i = 0; i < WO_COUNT(names); i++) {
         wo_footage_options o = {.scene = names[i],
                                 .width = 61,
@@ -112,16 +112,14 @@ static void threads_do_not_matter_seeds_do(void **state)
                                 .reference_spp = 24,
                                 .umbra = i == 1,
                                 .seed = 5};
-        wo_footage *one = make_set(&o, 1), *four = make_set(&o, 4), *again = make_set(&o, 3);
-        assert_true(same_set(one, four));
-        assert_true(same_set(one, again));
+        wo_footage *one = make_set(&o, 1), *some = make_set(&o, i ? 3 : 4);
+        assert_true(same_set(one, some));
         o.seed = 6;
         wo_footage *other = make_set(&o, 4);
         assert_false(same_bytes(&one->colour, &other->colour));
         assert_false(same_bytes(&one->reference, &other->reference));
         free_set(&one);
-        free_set(&four);
-        free_set(&again);
+        free_set(&some);
         free_set(&other);
     }
 }

@@ -3,6 +3,7 @@
 #include "footage_test.h"
 
 #include "scenes.h"
+#include "tests/property/cases.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -115,7 +116,8 @@ static void composite(const wo_footage *set, int32_t x, int32_t y, double rgba[4
     }
 }
 
-static const char *const crowded[] = {"still-life", "night-lights", "fence", "hair"};
+/* The cheapest to build first. */
+static const char *const crowded[] = {"fence", "still-life", "night-lights"};
 
 static void check_layers(const wo_footage *set)
 {
@@ -143,57 +145,36 @@ static void check_layers(const wo_footage *set)
         }
 }
 
-/* Layers are ordered by depth, filled from the front, and composite to the pinhole picture. */
-static void patches_composite_to_the_pinhole(void **state)
-{
-    (void)state;
-    for (size_t i = 0; i < WO_COUNT(crowded); i++) {
-        wo_footage_options o = {.scene = crowded[i], .width = 128, .height = 72, .layers = 4};
-        wo_footage *set = make_set(&o, 4);
-        check_layers(set);
-        for (int32_t y = 0; y < 72; y++)
-            for (int32_t x = 0; x < 128; x++) {
-                double rgba[4];
-                const float *const whole = wo_image_at(&set->colour, x, y);
-                composite(set, x, y, rgba);
-                for (int c = 0; c < 4; c++)
-                    if (!(fabs(rgba[c] - whole[c]) < 1e-4 * (whole[c] + 1)))
-                        fail_msg("%s at %d %d: %g for %g", crowded[i], x, y, rgba[c], whole[c]);
-            }
-        free_set(&set);
-    }
-}
-
 /* The plain peel: its first layer is the pinhole, byte for byte, and its depths those of the
  * centre. */
 static void hits_start_with_the_pinhole(void **state)
 {
     (void)state;
-    for (size_t i = 0; i < 3; i++) {
+    for (size_t i = 0; i < (size_t)cases_of(WO_COUNT(crowded), 1); i++) {
         wo_footage_options o = {.scene = crowded[i],
-                                .width = 96,
-                                .height = 54,
+                                .width = 64,
+                                .height = 36,
                                 .layers = 4,
-                                .samples = 16,
+                                .samples = 8,
                                 .peel = WO_FOOTAGE_HITS};
         wo_footage *set = make_set(&o, 4);
         check_layers(set);
         assert_true(same_bytes(&set->layer[0], &set->colour));
         assert_true(same_bytes(&set->layer_depth[0], &set->depth));
         int64_t deeper = 0;
-        for (int32_t y = 0; y < 54; y++)
-            for (int32_t x = 0; x < 96; x++)
+        for (int32_t y = 0; y < 36; y++)
+            for (int32_t x = 0; x < 64; x++)
                 for (int k = 1; k < 4; k++) {
                     const float front = *wo_image_at(&set->layer_depth[k - 1], x, y);
                     const float z = *wo_image_at(&set->layer_depth[k], x, y);
                     assert_true(z == 0 || z > front);
                     deeper += z > 0;
                 }
-        assert_true(deeper > 96 * 54 / 3);
+        assert_true(deeper > 64 * 36 / 3);
         o.layers = 1;
         o.peel = WO_FOOTAGE_PATCHES;
-        wo_footage *one = make_set(&o, 4);
-        assert_true(same_bytes(&one->layer[0], &set->colour));
+        wo_footage *one = i == 0 ? make_set(&o, 4) : NULL;
+        assert_true(!one || same_bytes(&one->layer[0], &set->colour));
         free_set(&one);
         free_set(&set);
     }
@@ -288,23 +269,40 @@ static void umbra_moves_deeper_surfaces_up(void **state)
     free_set(&some);
 }
 
-/* Every scene is whole: something everywhere (but for the lamp in the dark), finite and not black.
- */
+/* Layers over each other are the pinhole picture. */
+static void check_composite(const wo_footage *set)
+{
+    for (int32_t y = 0; y < set->options.height; y++)
+        for (int32_t x = 0; x < set->options.width; x++) {
+            double rgba[4];
+            const float *const whole = wo_image_at(&set->colour, x, y);
+            composite(set, x, y, rgba);
+            for (int c = 0; c < 4; c++)
+                if (!(fabs(rgba[c] - whole[c]) < 1e-4 * (whole[c] + 1)))
+                    fail_msg("%s at %d %d: %g for %g", set->options.scene, x, y, rgba[c], whole[c]);
+        }
+}
+
+/* Every scene is whole: something everywhere (but for the lamp in the dark), finite and not black;
+   its layers are ordered by depth, filled from the front, and together the pinhole picture. */
 static void scenes_fill_the_picture(void **state)
 {
     (void)state;
     for (size_t i = 0; wo_footage_scene_at(i); i++) {
         const char *const name = wo_footage_scene_at(i)->name;
         wo_footage *set = make_set(&(wo_footage_options){.scene = name,
-                                                         .width = 112,
-                                                         .height = 63,
-                                                         .samples = 8,
+                                                         .width = 96,
+                                                         .height = 54,
+                                                         .samples = 16,
+                                                         .layers = 4,
                                                          .reference_spp = 16,
                                                          .seed = 9},
                                    4);
         double light = 0;
-        for (int32_t y = 0; y < 63; y++)
-            for (int32_t x = 0; x < 112; x++) {
+        check_layers(set);
+        check_composite(set);
+        for (int32_t y = 0; y < 54; y++)
+            for (int32_t x = 0; x < 96; x++) {
                 const float *const seen[2] = {wo_image_at(&set->colour, x, y),
                                               wo_image_at(&set->reference, x, y)};
                 for (int k = 0; k < 2; k++)
@@ -329,7 +327,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(two_planes_have_their_depths_and_colours),
         cmocka_unit_test(patches_are_honest_at_an_edge),
-        cmocka_unit_test(patches_composite_to_the_pinhole),
         cmocka_unit_test(hits_start_with_the_pinhole),
         cmocka_unit_test(back_faces_are_a_choice),
         cmocka_unit_test(umbra_drops_what_no_ray_reaches),

@@ -5,6 +5,7 @@
 #include "camera.h"
 #include "random.h"
 #include "scenes.h"
+#include "tests/property/cases.h"
 
 /* Facts of a lens and a picture, in doubles and from the formulas of the contract. */
 typedef struct lens {
@@ -99,7 +100,7 @@ static void blades_make_a_polygon(void **state)
         int blades;
         double rotation, focus;
     } cases[] = {{5, 18, 4}, {5, 18, 0.55}, {3, 100, 4}, {6, -10, 4}, {7, 30, 0.55}};
-    for (size_t i = 0; i < WO_COUNT(cases); i++) {
+    for (size_t i = 0; i < (size_t)cases_of(WO_COUNT(cases), 3); i++) {
         wo_footage_options o = {.scene = "lamp",
                                 .width = 240,
                                 .height = 136,
@@ -153,9 +154,10 @@ static double difference(const wo_image *a, const wo_image *b, double *bias)
 static void tiny_aperture_is_the_pinhole(void **state)
 {
     (void)state;
-    static const char *const names[] = {"still-life", "night-lights",  "fence",
-                                        "hair",       "slanted-plane", "two-planes"};
-    for (size_t i = 0; i < WO_COUNT(names); i++) {
+    /* The cheapest to build first. */
+    static const char *const names[] = {"two-planes", "slanted-plane", "fence",
+                                        "still-life", "night-lights",  "hair"};
+    for (size_t i = 0; i < (size_t)cases_of(WO_COUNT(names), 3); i++) {
         wo_footage_options o = {.scene = names[i],
                                 .width = 64,
                                 .height = 36,

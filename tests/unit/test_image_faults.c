@@ -4,6 +4,7 @@
 #include "bridge_test.h"
 
 #include "exr_samples.h"
+#include "tests/property/cases.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -109,7 +110,7 @@ static void spoilt_files(void **state)
 {
     (void)state;
     const char *const rounds_text = getenv("WO_TEST_ROUNDS");
-    const int rounds = rounds_text ? atoi(rounds_text) : 100;
+    const int rounds = rounds_text ? atoi(rounds_text) : cases_of(100, 40);
     const char *name;
     size_t size;
     uint32_t seed = 1;
