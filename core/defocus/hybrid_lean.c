@@ -13,7 +13,7 @@
 /* Of the variance of noise, what the mean of a cell has; and how much more error there is than what
    is told here. Measured on footage. */
 #define LEFT_OVER 0.15f
-#define MORE      1.15f
+#define MORE      1.25f
 
 static float scale_of(const float filtered[4], int k)
 {

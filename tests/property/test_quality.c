@@ -112,8 +112,6 @@ static void errors_are_as_estimated(void **state)
                 wo_report report = {0};
                 wo_image out = scene_render(&s, &report);
                 const double ratio = displayed_rms(&out, &truth) / estimated_rms(&report);
-                print_message("seed %d method %d work %zu: true over estimated %.2f\n", (int)seed,
-                              methods[m], i, ratio);
                 renders++;
                 within += ratio <= 1.25 && ratio >= 1 / 1.25;
                 assert_at_most(ratio, 1.6);
