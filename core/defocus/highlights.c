@@ -231,6 +231,7 @@ void wo_highlights_destroy(const wo_context *context, wo_highlights *highlights)
     wo_delete(context, highlights->glow);
     wo_delete(context, highlights->images);
     wo_delete(context, highlights->densities);
+    wo_delete(context, highlights->lines);
     *highlights = (wo_highlights){0};
 }
 
@@ -245,21 +246,24 @@ static float hides_from(const wo_highlight *h, int sheet, float px_per_dioptre)
     return h->v + (sheet == h->sheet ? HIDES_OWN_PX : HIDES_PX) / px_per_dioptre;
 }
 
-/* True when no surface in these pixels can hide it. */
-static bool none_hides(const wo_stack *stack, wo_rect way, const wo_highlight *h,
+/* Which sheets, as bits, have a surface in these pixels that can hide it. */
+static unsigned hiders(const wo_stack *stack, unsigned sheets, wo_rect way, const wo_highlight *h,
                        float px_per_dioptre)
 {
     unsigned flags = 0;
+    unsigned out = 0;
     for (int s = 0; s < stack->sheets; s++)
-        if (wo_stack_bounds(stack, s, way, &flags).v_max > hides_from(h, s, px_per_dioptre))
-            return false;
-    return true;
+        if (sheets >> s & 1 &&
+            wo_stack_bounds(stack, s, way, &flags).v_max > hides_from(h, s, px_per_dioptre))
+            out |= 1u << s;
+    return out;
 }
 
 /* Light that gets through from a highlight to pixel (x, y) along the line; the rules of march.h,
    one ray at a time. */
-static float visible(const wo_stack *stack, int32_t x, int32_t y, const double line[4],
-                     const wo_highlight *h, float v_near, float px_per_dioptre)
+static float visible(const wo_stack *stack, unsigned sheets, int32_t x, int32_t y,
+                     const double line[4], const wo_highlight *h, float v_near,
+                     float px_per_dioptre)
 {
     const bool upright = fabs(line[3]) > fabs(line[2]);
     const float am = (float)line[upright ? 1 : 0];
@@ -270,14 +274,20 @@ static float visible(const wo_stack *stack, int32_t x, int32_t y, const double l
     const float s_end = am + bm * h->v;
     const int dir = s_near >= s_end ? -1 : 1;
     const int last = (int)lrintf(s_end);
+    int which[WO_SHEETS_MAX];
     float before[WO_SHEETS_MAX];
-    for (int s = 0; s < stack->sheets; s++)
+    int count = 0;
+    for (int s = 0; s < stack->sheets; s++) {
         before[s] = NAN;
+        which[count] = s;
+        count += (int)(sheets >> s & 1);
+    }
     float light = 1;
     for (int i = (int)lrintf(s_near); light > WO_LIGHT_MIN; i += dir) {
         const int j = (int)lrintf(n0 + slope * (float)i);
         const ptrdiff_t at = wo_stack_at(stack, x + (upright ? j : i), y + (upright ? i : j));
-        for (int s = 0; s < stack->sheets; s++) {
+        for (int n = 0; n < count; n++) {
+            const int s = which[n];
             const float q = stack->v[s][at];
             const float e = (am + bm * q - (float)i) * (float)dir;
             const float e0 = before[s];
@@ -293,16 +303,17 @@ static float visible(const wo_stack *stack, int32_t x, int32_t y, const double l
     return 0;
 }
 
-/* True when no surface on the way of the ray, from where it may meet the nearest one to the
-   highlight, can hide it. */
-static bool nothing_between(const wo_stack *stack, int32_t x, int32_t y, const double line[4],
-                            const wo_highlight *h, float v_near, float px_per_dioptre)
+/* Of these sheets, those that have a surface that can hide it on the way of the ray, from where it
+   may meet the nearest one to the highlight. */
+static unsigned between(const wo_stack *stack, unsigned sheets, int32_t x, int32_t y,
+                        const double line[4], const wo_highlight *h, float v_near,
+                        float px_per_dioptre)
 {
     const int32_t near_x = x + (int32_t)lrint(line[0] + line[2] * (double)v_near);
     const int32_t near_y = y + (int32_t)lrint(line[1] + line[3] * (double)v_near);
     const wo_rect way = {near_x < h->x ? near_x : h->x, near_y < h->y ? near_y : h->y,
                          (near_x > h->x ? near_x : h->x) + 1, (near_y > h->y ? near_y : h->y) + 1};
-    return none_hides(stack, way, h, px_per_dioptre);
+    return hiders(stack, sheets, way, h, px_per_dioptre);
 }
 
 float wo_highlight_hidden_from(const wo_highlight *h, const wo_lens *lens)
@@ -311,54 +322,78 @@ float wo_highlight_hidden_from(const wo_highlight *h, const wo_lens *lens)
 }
 
 float wo_highlight_seen(const wo_highlight *h, const wo_stack *stack, const wo_lens *lens,
-                        int32_t x, int32_t y, const double line[4], float v_near)
+                        unsigned sheets, int32_t x, int32_t y, const double line[4], float v_near)
 {
     const float px_per_dioptre = (float)lens->px_per_dioptre;
-    if (v_near <= h->v || nothing_between(stack, x, y, line, h, v_near, px_per_dioptre))
+    if (v_near <= h->v || !between(stack, sheets, x, y, line, h, v_near, px_per_dioptre))
         return 1;
-    return visible(stack, x, y, line, h, v_near, px_per_dioptre);
+    return visible(stack, sheets, x, y, line, h, v_near, px_per_dioptre);
 }
 
-/* True when no ray from these pixels to the highlight can meet a surface that hides it. */
-static bool all_clear(const wo_stack *stack, const wo_lens *lens, wo_rect pixels,
-                      const wo_highlight *h, float v_near)
+/* Which sheets may hide it from these pixels. Its rays to them pass pixels between the highlight
+   and the place where they are as near as the nearest surface. */
+static unsigned may_hide(const wo_stack *stack, const wo_lens *lens, unsigned sheets,
+                         wo_rect pixels, const wo_highlight *h, float v_near)
 {
+    enum { ROUNDING = 2 };
     if (v_near <= h->v)
-        return true;
-    const double reach = lens->reach(lens->self, (double)h->v, (double)v_near);
-    const int32_t grow = (int32_t)fmin(reach, WO_MAX_COORDINATE) + 2;
-    const wo_rect way = wo_rect_intersect(wo_rect_grow(pixels, grow, grow), stack->area);
-    return !wo_rect_empty(way) && none_hides(stack, way, h, (float)lens->px_per_dioptre);
+        return 0;
+    const double reach = lens->reach(lens->self, (double)v_near, (double)v_near);
+    const int32_t grow = (int32_t)fmin(reach, WO_MAX_COORDINATE);
+    const wo_rect middle = {h->x, h->y, h->x + 1, h->y + 1};
+    const wo_rect ends = wo_rect_union(wo_rect_grow(pixels, grow, grow), middle);
+    const wo_rect way = wo_rect_intersect(wo_rect_grow(ends, ROUNDING, ROUNDING), stack->area);
+    return wo_rect_empty(way) ? 0 : hiders(stack, sheets, way, h, (float)lens->px_per_dioptre);
 }
 
-/* Adds one highlight to a tile; returns the number of rays. */
-static int64_t add_highlight(const wo_highlights *highlights, const wo_highlight *h,
-                             const wo_stack *stack, const wo_lens *lens, wo_rect tile, float v_near,
-                             float sums[WO_TILE_HEIGHT][WO_TILE_WIDTH][3])
+/* Adds one highlight to pixels of a tile; returns the number of rays. */
+static int64_t add_to(const wo_highlights *highlights, const wo_highlight *h, const wo_stack *stack,
+                      const wo_lens *lens, wo_rect tile, wo_rect pixels, unsigned sheets,
+                      float v_near, float sums[WO_TILE_HEIGHT][WO_TILE_WIDTH][3])
 {
     int64_t rays = 0;
     const wo_highlight_image *image = &highlights->images[h->image];
     const int32_t r = image->extent;
-    const wo_rect disc =
-        wo_rect_intersect(tile, (wo_rect){h->x - r, h->y - r, h->x + r + 1, h->y + r + 1});
-    if (wo_rect_empty(disc))
-        return 0;
-    const bool clear = all_clear(stack, lens, disc, h, v_near);
-    for (int32_t y = disc.y1; y < disc.y2; y++) {
+    for (int32_t y = pixels.y1; y < pixels.y2; y++) {
         const float *row = image->density ? image->density + (y - h->y + r) * (2 * r + 1) : NULL;
-        for (int32_t x = disc.x1; x < disc.x2; x++) {
+        for (int32_t x = pixels.x1; x < pixels.x2; x++) {
             double line[4];
             float light = row ? row[x - h->x + r] : 0;
-            if (!row || (light > 0 && !clear))
+            if (!row)
                 light = (float)wo_highlight_density(lens, h->x - x, h->y - y, h->v, h->reach, line);
             if (!(light > 0))
                 continue;
             rays++;
-            if (!clear)
-                light *= wo_highlight_seen(h, stack, lens, x, y, line, v_near);
+            if (row && sheets)
+                wo_highlight_image_line(image, lens, h->x - x, h->y - y, line);
+            if (sheets)
+                light *= wo_highlight_seen(h, stack, lens, sheets, x, y, line, v_near);
             for (int k = 0; k < 3; k++)
                 sums[y - tile.y1][x - tile.x1][k] += light * h->c[k];
         }
+    }
+    return rays;
+}
+
+/* Adds one highlight to a tile: all of it where nothing is in between, else by WO_CELL columns. */
+static int64_t add_highlight(const wo_highlights *highlights, const wo_highlight *h,
+                             const wo_stack *stack, const wo_lens *lens, wo_rect tile, float v_near,
+                             float sums[WO_TILE_HEIGHT][WO_TILE_WIDTH][3])
+{
+    const int32_t r = highlights->images[h->image].extent;
+    const wo_rect disc =
+        wo_rect_intersect(tile, (wo_rect){h->x - r, h->y - r, h->x + r + 1, h->y + r + 1});
+    if (wo_rect_empty(disc))
+        return 0;
+    const unsigned sheets = may_hide(stack, lens, ~0u, disc, h, v_near);
+    if (!sheets)
+        return add_to(highlights, h, stack, lens, tile, disc, 0, v_near, sums);
+    int64_t rays = 0;
+    for (int32_t x = tile.x1; x < tile.x2; x += WO_CELL) {
+        const wo_rect part = wo_rect_intersect(disc, (wo_rect){x, tile.y1, x + WO_CELL, tile.y2});
+        if (!wo_rect_empty(part))
+            rays += add_to(highlights, h, stack, lens, tile, part,
+                           may_hide(stack, lens, sheets, part, h, v_near), v_near, sums);
     }
     return rays;
 }

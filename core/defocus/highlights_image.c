@@ -15,7 +15,7 @@
 #define SOFT 2.0
 enum { PLACES = 144, STRIDE = 89 };
 
-/* Pictures of COUNTED px of extent or more are counted on some of their pixels only; MOST floats
+/* Pictures of COUNTED px of extent or more are counted on some of their pixels only; MOST pixels
    are kept of the others. */
 enum { COUNTED = 128, MOST = 1 << 24 };
 
@@ -54,6 +54,21 @@ double wo_highlight_density(const wo_lens *lens, int32_t dx, int32_t dy, float v
     return sum + (1 - soft) * density;
 }
 
+/* Place of an offset in density: this is where the pixel sees the highlight from the other side. */
+static ptrdiff_t place_of(const wo_highlight_image *image, int32_t dx, int32_t dy)
+{
+    return (image->extent - dy) * (2 * (ptrdiff_t)image->extent + 1) + image->extent - dx;
+}
+
+void wo_highlight_image_line(const wo_highlight_image *image, const wo_lens *lens, int32_t dx,
+                             int32_t dy, double line[4])
+{
+    if (image->line)
+        memcpy(line, image->line[place_of(image, dx, dy)], sizeof *image->line);
+    else
+        lens->connect(lens->self, dx, dy, image->v, line);
+}
+
 /* A highlight and its place in the list. */
 typedef struct key {
     float v, reach;
@@ -89,9 +104,8 @@ static void make_image(void *user, size_t index, unsigned worker)
     const double golden = 0.6180339887498949;
     const int32_t r = image->extent;
     const int32_t step = step_of(r);
-    float *to = image->density ? image->density + (2 * r + 1) * (2 * r + 1) : NULL;
     double sum = 0;
-    double line[4];
+    double line[4] = {0};
     if (wo_aborted(job->context)) {
         atomic_store(&job->stop, true);
         return;
@@ -102,26 +116,36 @@ static void make_image(void *user, size_t index, unsigned worker)
         for (int32_t dx = start - r; dx <= r; dx += step) {
             const double d = wo_highlight_density(job->lens, dx, dy, image->v, image->reach, line);
             sum += d;
-            if (to)
-                *--to = (float)d;
+            if (image->density)
+                image->density[place_of(image, dx, dy)] = (float)d;
+            if (image->line)
+                memcpy(image->line[place_of(image, dx, dy)], line, sizeof line);
         }
     }
     image->share = sum > 0 ? 1 / (sum * step) : 0;
 }
 
-/* Floats of an image if it is to be kept: large ones and those of few highlights are not. */
+/* Pixels of an image if it is to be kept: large ones, and those of fewer than least highlights, are
+ * not. */
 static size_t room_of(const wo_highlight_image *image, size_t least)
 {
     const size_t side = 2 * (size_t)image->extent + 1;
     return step_of(image->extent) > 1 || image->uses < least ? 0 : side * side;
 }
 
-static size_t room_of_all(const wo_highlights *highlights, size_t least)
+static bool is_soft(const wo_highlight_image *image)
 {
-    size_t floats = 0;
+    return (double)image->reach < 2 * SOFT;
+}
+
+/* Pixels of all images that are kept. */
+static size_t room_of_all(const wo_highlights *highlights, size_t least, bool soft_ones)
+{
+    size_t pixels = 0;
     for (size_t i = 0; i < highlights->image_count; i++)
-        floats += room_of(&highlights->images[i], least);
-    return floats;
+        if (!soft_ones || is_soft(&highlights->images[i]))
+            pixels += room_of(&highlights->images[i], least);
+    return pixels;
 }
 
 static wo_status give_room(const wo_context *context, wo_highlights *highlights, wo_error *error)
@@ -129,19 +153,30 @@ static wo_status give_room(const wo_context *context, wo_highlights *highlights,
     const size_t limit = context && context->max_bytes ? context->max_bytes / sizeof(float) : MOST;
     const size_t most = limit < MOST ? limit : MOST;
     size_t least = 1;
-    while (room_of_all(highlights, least) > most)
+    while (room_of_all(highlights, least, false) > most ||
+           room_of_all(highlights, least, true) > most / 8)
         least *= 2;
-    const size_t floats = room_of_all(highlights, least);
-    if (floats == 0)
-        return WO_OK;
-    highlights->densities = wo_new_raw(context, error, floats, sizeof *highlights->densities);
-    if (!highlights->densities)
+    const size_t pixels = room_of_all(highlights, least, false);
+    const size_t soft = room_of_all(highlights, least, true);
+    if (pixels > 0 && !(highlights->densities =
+                            wo_new_raw(context, error, pixels, sizeof *highlights->densities)))
+        return WO_ERR_NOMEM;
+    if (soft > 0 &&
+        !(highlights->lines = wo_new_raw(context, error, soft, sizeof *highlights->lines)))
         return WO_ERR_NOMEM;
     float *next = highlights->densities;
+    double(*next_line)[4] = highlights->lines;
     for (size_t i = 0; i < highlights->image_count; i++) {
-        const size_t room = room_of(&highlights->images[i], least);
-        highlights->images[i].density = room > 0 ? next : NULL;
+        wo_highlight_image *image = &highlights->images[i];
+        const size_t room = room_of(image, least);
+        if (room == 0)
+            continue;
+        image->density = next;
         next += room;
+        if (is_soft(image)) {
+            image->line = next_line;
+            next_line += room;
+        }
     }
     return WO_OK;
 }

@@ -16,6 +16,10 @@ int32_t wo_highlight_extent(float reach);
 double wo_highlight_density(const wo_lens *lens, int32_t dx, int32_t dy, float v, float reach,
                             double line[4]);
 
+/* The ray of a pixel whose density is kept and above 0. */
+void wo_highlight_image_line(const wo_highlight_image *image, const wo_lens *lens, int32_t dx,
+                             int32_t dy, double line[4]);
+
 /* Makes an image for each vergence in the list, in any order, and sets the image of each. Their
    densities are kept as far as there is room. WO_ABORTED when stopped. */
 WO_NODISCARD wo_status wo_highlight_images_make(const wo_context *context, const wo_lens *lens,
