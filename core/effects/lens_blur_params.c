@@ -281,8 +281,8 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .unit = "",
      .group = "quality",
      .help =
-         "How the blur is made. Hybrid: lens rays, and smoothing of what is far out of focus, as "
-         "much as its own blur allows: the best picture for the time. Rays: lens rays alone. "
+         "How the blur is made. Hybrid: the filter, and lens rays, whose noise tells where the "
+         "filter is wrong: the best picture for the time. Rays: lens rays alone. "
          "Filter: every pixel gathers what blurs over it; the fastest, for previews. Spread: "
          "every pixel's light is spread over its circle of confusion, distance by distance: no "
          "noise; Samples sets how finely distances are told apart. Accumulate: whole pictures, "

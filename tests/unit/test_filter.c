@@ -102,6 +102,8 @@ static wo_filter_shape shape_of(const wo_aperture *aperture, double stretch, int
     uint8_t opaque[64 * 8];
     memset(opaque, 1, sizeof opaque);
     assert_int_equal(wo_sheet_create(NULL, area, &sheet, NULL), WO_OK);
+    memset(sheet.v, 0, sizeof opaque * sizeof *sheet.v);
+    memset(sheet.c, 0, sizeof opaque * sizeof *sheet.c);
     sheet.any = true;
     wo_thin_pencils *pencils = NULL;
     assert_int_equal(
