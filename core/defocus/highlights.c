@@ -2,6 +2,7 @@
 /* Copyright the WideOpen authors */
 #include "defocus/highlights.h"
 
+#include "defocus/highlights_image.h"
 #include "defocus/march.h"
 
 #include <math.h>
@@ -21,93 +22,10 @@ typedef struct take_job {
     size_t *counts;
 } take_job;
 
-/* Vergences of highlights are rounded to steps of 1/QUANTUM px of blur, so that few shares are
-   worked out; CACHE of them are kept. Images that are drawn are rounded to twice as much for each
-   QUANTUM_EVEN px. */
+/* Vergences of highlights are rounded to steps of 1/QUANTUM px of blur, so that many share one
+   image. Images that are drawn are rounded to twice as much for each QUANTUM_EVEN px. */
 #define QUANTUM      32.0
 #define QUANTUM_EVEN 16.0
-enum { CACHE = 64 };
-
-typedef struct share_cache {
-    float v[CACHE];
-    double share[CACHE];
-    int count;
-} share_cache;
-
-/* The pixel of a highlight is already as soft as the picture, so large discs need no soft edge. But
-   discs up to SOFT px of reach have edges cut by the area of each pixel, so that they grow
-   smoothly; from there to twice that it matters less and less, and then the middle of the pixel
-   counts. The area is looked at in places of a lattice: no two are in one row or column, which a
-   rim could reach at once. */
-#define SOFT 2.0
-enum { PLACES = 144, STRIDE = 89 };
-
-/* Density of rays over the pixel at the offset (dx, dy), and one of them. */
-static double density_at(const wo_lens *lens, int32_t dx, int32_t dy, float v, float reach,
-                         double line[4])
-{
-    const double soft = fmin(fmax(2 - (double)reach / SOFT, 0), 1);
-    double sum = 0;
-    double middle[4];
-    const double density = lens->connect(lens->self, dx, dy, v, middle);
-    /* Corners and middle alike: the edge is elsewhere. */
-    double corners[4] = {0};
-    for (int i = 0; i < 4 && soft > 0; i++)
-        corners[i] = lens->connect(lens->self, dx + (i & 1) - 0.5, dy + i / 2 - 0.5, v, line);
-    const bool even = corners[0] == corners[1] && corners[0] == corners[2] &&
-                      corners[0] == corners[3] && corners[0] == density &&
-                      (corners[0] > 0 || dx * dx + dy * dy > 2);
-    for (int i = 0; i < PLACES && soft > 0 && !even; i++) {
-        const double x = dx + (i + 0.5) / PLACES - 0.5;
-        const double y = dy + (STRIDE * i % PLACES + 0.5) / PLACES - 0.5;
-        double inside[4];
-        const double d = lens->connect(lens->self, x, y, v, inside);
-        if (d > 0)
-            memcpy(line, inside, sizeof inside);
-        sum += d;
-    }
-    sum = soft * (even ? corners[0] : sum / PLACES);
-    /* The ray through the middle, if it is there. */
-    if (density > 0)
-        memcpy(line, middle, sizeof middle);
-    return sum + (1 - soft) * density;
-}
-
-/* px from the middle of a highlight that its light may reach. */
-static int32_t extent_of(float reach)
-{
-    return (int32_t)ceilf(reach + 0.5f);
-}
-
-/* Share of the light that reaches one pixel for a unit of connect density, so that the sum over all
-   pixels is 1. Large pictures of the aperture are counted on every step-th pixel of each row, each
-   row from another start. */
-static double share(const wo_lens *lens, float v, float reach)
-{
-    enum { COUNTED = 128 };
-    const double golden = 0.6180339887498949;
-    const int32_t r = extent_of(reach);
-    const int32_t step = r / COUNTED > 1 ? r / COUNTED : 1;
-    double sum = 0;
-    double line[4];
-    for (int32_t dy = -r; dy <= r; dy++) {
-        double whole;
-        const int32_t start = (int32_t)(step * modf((dy + r) * golden, &whole));
-        for (int32_t dx = start - r; dx <= r; dx += step)
-            sum += density_at(lens, dx, dy, v, reach, line);
-    }
-    return sum > 0 ? 1 / (sum * step) : 0;
-}
-
-static double cached_share(share_cache *cache, const wo_lens *lens, float v, float reach)
-{
-    for (int i = 0; i < cache->count && i < CACHE; i++)
-        if (cache->v[i] == v)
-            return cache->share[i];
-    const int at = cache->count++ % CACHE;
-    cache->v[at] = v;
-    return cache->share[at] = share(lens, v, reach);
-}
 
 /* What makes a pixel of a sheet a highlight. */
 typedef struct spot {
@@ -185,38 +103,56 @@ static void count_tile(void *user, size_t index, unsigned worker)
     }
 }
 
-static void take_tile(void *user, size_t index, unsigned worker)
+/* Lists the highlights of a tile; the sheets stay as they are. */
+static void list_tile(void *user, size_t index, unsigned worker)
 {
     (void)worker;
     take_job *job = user;
     wo_highlight *to = job->out->list + job->out->first[index];
     if (job->out->first[index + 1] == job->out->first[index])
         return;
-    share_cache cache = {.count = 0};
     int packed = 0; /* place of the sheet in the stack, which has no empty ones */
     for (size_t s = 0; s < job->sheet_count; s++) {
-        wo_sheet *sheet = &job->sheets[s];
+        const wo_sheet *sheet = &job->sheets[s];
         const wo_rect r = wo_rect_intersect(tile_of(job->out->tiles, index), sheet->area);
         const int32_t w = wo_rect_width(sheet->area);
         for (int32_t y = r.y1; sheet->any && y < r.y2; y++) {
             for (int32_t x = r.x1; x < r.x2; x++) {
                 const size_t at = (size_t)((y - sheet->area.y1) * w + x - sheet->area.x1);
                 spot found;
-                if (!is_bright(sheet->c[at]) || !is_highlight(job, sheet, at, &found))
-                    continue;
-                const double part =
-                    job->lens->connect ? cached_share(&cache, job->lens, found.v, found.reach) : 1;
-                /* Slits that no pixel looks through: the light stays with the surface. */
-                const float above = part > 0 ? found.taken : 0;
-                *to = (wo_highlight){x, y, found.v, found.reach, packed, {0}};
-                for (int k = 0; k < 3; k++) {
-                    to->c[k] = (float)(part * above) * sheet->c[at][k];
-                    sheet->c[at][k] -= above * sheet->c[at][k];
-                }
-                to++;
+                if (is_bright(sheet->c[at]) && is_highlight(job, sheet, at, &found))
+                    *to++ = (wo_highlight){.x = x,
+                                           .y = y,
+                                           .v = found.v,
+                                           .reach = found.reach,
+                                           .taken = found.taken,
+                                           .sheet = packed};
             }
         }
         packed += sheet->any;
+    }
+}
+
+/* Takes the light of a tile's highlights out of the sheets. */
+static void take_tile(void *user, size_t index, unsigned worker)
+{
+    (void)worker;
+    take_job *job = user;
+    wo_sheet *sheet = job->sheets;
+    int packed = 0;
+    for (size_t i = job->out->first[index]; i < job->out->first[index + 1]; i++) {
+        wo_highlight *h = &job->out->list[i];
+        for (; packed < h->sheet || !sheet->any; sheet++)
+            packed += sheet->any;
+        const size_t at =
+            (size_t)((h->y - sheet->area.y1) * wo_rect_width(sheet->area) + h->x - sheet->area.x1);
+        const double part = job->out->images ? job->out->images[h->image].share : 1;
+        /* Slits that no pixel looks through: the light stays with the surface. */
+        h->taken = part > 0 ? h->taken : 0;
+        for (int k = 0; k < 3; k++) {
+            h->c[k] = (float)(part * h->taken) * sheet->c[at][k];
+            sheet->c[at][k] -= h->taken * sheet->c[at][k];
+        }
     }
 }
 
@@ -271,6 +207,11 @@ wo_status wo_highlights_take(const wo_context *context, wo_sheet *sheets, size_t
         highlights->list = wo_new(context, error, highlights->count, sizeof *highlights->list);
         if (!highlights->list)
             goto done;
+        wo_run(context, list_tile, &job, taken);
+        if (lens->connect)
+            status = wo_highlight_images_make(context, lens, highlights, error);
+        if (lens->connect && status != WO_OK)
+            goto done;
         wo_run(context, take_tile, &job, taken);
         for (i = 0; i < highlights->count; i++)
             highlights->reach = fmaxf(highlights->reach, highlights->list[i].reach);
@@ -288,6 +229,9 @@ void wo_highlights_destroy(const wo_context *context, wo_highlights *highlights)
     wo_delete(context, highlights->list);
     wo_delete(context, highlights->first);
     wo_delete(context, highlights->glow);
+    wo_delete(context, highlights->images);
+    wo_delete(context, highlights->densities);
+    wo_delete(context, highlights->lines);
     *highlights = (wo_highlights){0};
 }
 
@@ -302,10 +246,24 @@ static float hides_from(const wo_highlight *h, int sheet, float px_per_dioptre)
     return h->v + (sheet == h->sheet ? HIDES_OWN_PX : HIDES_PX) / px_per_dioptre;
 }
 
+/* Which sheets, as bits, have a surface in these pixels that can hide it. */
+static unsigned hiders(const wo_stack *stack, unsigned sheets, wo_rect way, const wo_highlight *h,
+                       float px_per_dioptre)
+{
+    unsigned flags = 0;
+    unsigned out = 0;
+    for (int s = 0; s < stack->sheets; s++)
+        if (sheets >> s & 1 &&
+            wo_stack_bounds(stack, s, way, &flags).v_max > hides_from(h, s, px_per_dioptre))
+            out |= 1u << s;
+    return out;
+}
+
 /* Light that gets through from a highlight to pixel (x, y) along the line; the rules of march.h,
    one ray at a time. */
-static float visible(const wo_stack *stack, int32_t x, int32_t y, const double line[4],
-                     const wo_highlight *h, float v_near, float px_per_dioptre)
+static float visible(const wo_stack *stack, unsigned sheets, int32_t x, int32_t y,
+                     const double line[4], const wo_highlight *h, float v_near,
+                     float px_per_dioptre)
 {
     const bool upright = fabs(line[3]) > fabs(line[2]);
     const float am = (float)line[upright ? 1 : 0];
@@ -316,14 +274,20 @@ static float visible(const wo_stack *stack, int32_t x, int32_t y, const double l
     const float s_end = am + bm * h->v;
     const int dir = s_near >= s_end ? -1 : 1;
     const int last = (int)lrintf(s_end);
+    int which[WO_SHEETS_MAX];
     float before[WO_SHEETS_MAX];
-    for (int s = 0; s < stack->sheets; s++)
+    int count = 0;
+    for (int s = 0; s < stack->sheets; s++) {
         before[s] = NAN;
+        which[count] = s;
+        count += (int)(sheets >> s & 1);
+    }
     float light = 1;
     for (int i = (int)lrintf(s_near); light > WO_LIGHT_MIN; i += dir) {
         const int j = (int)lrintf(n0 + slope * (float)i);
         const ptrdiff_t at = wo_stack_at(stack, x + (upright ? j : i), y + (upright ? i : j));
-        for (int s = 0; s < stack->sheets; s++) {
+        for (int n = 0; n < count; n++) {
+            const int s = which[n];
             const float q = stack->v[s][at];
             const float e = (am + bm * q - (float)i) * (float)dir;
             const float e0 = before[s];
@@ -339,20 +303,17 @@ static float visible(const wo_stack *stack, int32_t x, int32_t y, const double l
     return 0;
 }
 
-/* True when no surface on the way of the ray, from where it may meet the nearest one to the
-   highlight, can hide it. */
-static bool nothing_between(const wo_stack *stack, int32_t x, int32_t y, const double line[4],
-                            const wo_highlight *h, float v_near, float px_per_dioptre)
+/* Of these sheets, those that have a surface that can hide it on the way of the ray, from where it
+   may meet the nearest one to the highlight. */
+static unsigned between(const wo_stack *stack, unsigned sheets, int32_t x, int32_t y,
+                        const double line[4], const wo_highlight *h, float v_near,
+                        float px_per_dioptre)
 {
     const int32_t near_x = x + (int32_t)lrint(line[0] + line[2] * (double)v_near);
     const int32_t near_y = y + (int32_t)lrint(line[1] + line[3] * (double)v_near);
     const wo_rect way = {near_x < h->x ? near_x : h->x, near_y < h->y ? near_y : h->y,
                          (near_x > h->x ? near_x : h->x) + 1, (near_y > h->y ? near_y : h->y) + 1};
-    unsigned flags = 0;
-    for (int s = 0; s < stack->sheets; s++)
-        if (wo_stack_bounds(stack, s, way, &flags).v_max > hides_from(h, s, px_per_dioptre))
-            return false;
-    return true;
+    return hiders(stack, sheets, way, h, px_per_dioptre);
 }
 
 float wo_highlight_hidden_from(const wo_highlight *h, const wo_lens *lens)
@@ -361,12 +322,80 @@ float wo_highlight_hidden_from(const wo_highlight *h, const wo_lens *lens)
 }
 
 float wo_highlight_seen(const wo_highlight *h, const wo_stack *stack, const wo_lens *lens,
-                        int32_t x, int32_t y, const double line[4], float v_near)
+                        unsigned sheets, int32_t x, int32_t y, const double line[4], float v_near)
 {
     const float px_per_dioptre = (float)lens->px_per_dioptre;
-    if (v_near <= h->v || nothing_between(stack, x, y, line, h, v_near, px_per_dioptre))
+    if (v_near <= h->v || !between(stack, sheets, x, y, line, h, v_near, px_per_dioptre))
         return 1;
-    return visible(stack, x, y, line, h, v_near, px_per_dioptre);
+    return visible(stack, sheets, x, y, line, h, v_near, px_per_dioptre);
+}
+
+/* Which sheets may hide it from these pixels. Its rays to them pass pixels between the highlight
+   and the place where they are as near as the nearest surface. */
+static unsigned may_hide(const wo_stack *stack, const wo_lens *lens, unsigned sheets,
+                         wo_rect pixels, const wo_highlight *h, float v_near)
+{
+    enum { ROUNDING = 2 };
+    if (v_near <= h->v)
+        return 0;
+    const double reach = lens->reach(lens->self, (double)v_near, (double)v_near);
+    const int32_t grow = (int32_t)fmin(reach, WO_MAX_COORDINATE);
+    const wo_rect middle = {h->x, h->y, h->x + 1, h->y + 1};
+    const wo_rect ends = wo_rect_union(wo_rect_grow(pixels, grow, grow), middle);
+    const wo_rect way = wo_rect_intersect(wo_rect_grow(ends, ROUNDING, ROUNDING), stack->area);
+    return wo_rect_empty(way) ? 0 : hiders(stack, sheets, way, h, (float)lens->px_per_dioptre);
+}
+
+/* Adds one highlight to pixels of a tile; returns the number of rays. */
+static int64_t add_to(const wo_highlights *highlights, const wo_highlight *h, const wo_stack *stack,
+                      const wo_lens *lens, wo_rect tile, wo_rect pixels, unsigned sheets,
+                      float v_near, float sums[WO_TILE_HEIGHT][WO_TILE_WIDTH][3])
+{
+    int64_t rays = 0;
+    const wo_highlight_image *image = &highlights->images[h->image];
+    const int32_t r = image->extent;
+    for (int32_t y = pixels.y1; y < pixels.y2; y++) {
+        const float *row = image->density ? image->density + (y - h->y + r) * (2 * r + 1) : NULL;
+        for (int32_t x = pixels.x1; x < pixels.x2; x++) {
+            double line[4];
+            float light = row ? row[x - h->x + r] : 0;
+            if (!row)
+                light = (float)wo_highlight_density(lens, h->x - x, h->y - y, h->v, h->reach, line);
+            if (!(light > 0))
+                continue;
+            rays++;
+            if (row && sheets)
+                wo_highlight_image_line(image, lens, h->x - x, h->y - y, line);
+            if (sheets)
+                light *= wo_highlight_seen(h, stack, lens, sheets, x, y, line, v_near);
+            for (int k = 0; k < 3; k++)
+                sums[y - tile.y1][x - tile.x1][k] += light * h->c[k];
+        }
+    }
+    return rays;
+}
+
+/* Adds one highlight to a tile: all of it where nothing is in between, else by WO_CELL columns. */
+static int64_t add_highlight(const wo_highlights *highlights, const wo_highlight *h,
+                             const wo_stack *stack, const wo_lens *lens, wo_rect tile, float v_near,
+                             float sums[WO_TILE_HEIGHT][WO_TILE_WIDTH][3])
+{
+    const int32_t r = highlights->images[h->image].extent;
+    const wo_rect disc =
+        wo_rect_intersect(tile, (wo_rect){h->x - r, h->y - r, h->x + r + 1, h->y + r + 1});
+    if (wo_rect_empty(disc))
+        return 0;
+    const unsigned sheets = may_hide(stack, lens, ~0u, disc, h, v_near);
+    if (!sheets)
+        return add_to(highlights, h, stack, lens, tile, disc, 0, v_near, sums);
+    int64_t rays = 0;
+    for (int32_t x = tile.x1; x < tile.x2; x += WO_CELL) {
+        const wo_rect part = wo_rect_intersect(disc, (wo_rect){x, tile.y1, x + WO_CELL, tile.y2});
+        if (!wo_rect_empty(part))
+            rays += add_to(highlights, h, stack, lens, tile, part,
+                           may_hide(stack, lens, sheets, part, h, v_near), v_near, sums);
+    }
+    return rays;
 }
 
 /* A tile of what is drawn already; returns how many of its pixels are lit. */
@@ -398,7 +427,7 @@ int64_t wo_highlights_add(const wo_highlights *highlights, const wo_stack *stack
         return 0;
     if (highlights->glow)
         return add_drawn(highlights, tile, sums);
-    const int32_t reach = extent_of(highlights->reach);
+    const int32_t reach = wo_highlight_extent(highlights->reach);
     const wo_rect grown = wo_rect_grow(tile, reach, reach);
     const wo_rect tiles = wo_rect_intersect(highlights->tiles,
                                             (wo_rect){floor_div(grown.x1, WO_TILE_WIDTH),
@@ -410,27 +439,9 @@ int64_t wo_highlights_add(const wo_highlights *highlights, const wo_stack *stack
             (size_t)(ty - highlights->tiles.y1) * (size_t)wo_rect_width(highlights->tiles);
         const size_t from = highlights->first[row + (size_t)(tiles.x1 - highlights->tiles.x1)];
         const size_t to = highlights->first[row + (size_t)(tiles.x2 - highlights->tiles.x1)];
-        for (size_t i = from; i < to; i++) {
-            const wo_highlight *h = &highlights->list[i];
-            const int32_t r = extent_of(h->reach);
-            const wo_rect disc =
-                wo_rect_intersect(tile, (wo_rect){h->x - r, h->y - r, h->x + r + 1, h->y + r + 1});
-            for (int32_t y = disc.y1; y < disc.y2; y++) {
-                for (int32_t x = disc.x1; x < disc.x2; x++) {
-                    double line[4];
-                    const double density =
-                        density_at(lens, h->x - x, h->y - y, h->v, h->reach, line);
-                    if (!(density > 0))
-                        continue;
-                    rays++;
-                    const float light =
-                        (float)density * wo_highlight_seen(h, stack, lens, x, y, line, v_near);
-                    float *sum = sums[y - tile.y1][x - tile.x1];
-                    for (int k = 0; k < 3; k++)
-                        sum[k] += light * h->c[k];
-                }
-            }
-        }
+        for (size_t i = from; i < to; i++)
+            rays +=
+                add_highlight(highlights, &highlights->list[i], stack, lens, tile, v_near, sums);
     }
     return rays;
 }

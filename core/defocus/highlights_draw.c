@@ -131,7 +131,7 @@ static float seen_part(const draw_job *job, const wo_highlight *h, int32_t x, in
         const double by = (double)p->b[i][1];
         const double line[4] = {h->x - x - bx * (double)h->v, h->y - y - by * (double)h->v, bx, by};
         hidden +=
-            p->part[i] * (1 - wo_highlight_seen(h, job->stack, job->lens, x, y, line, v_near));
+            p->part[i] * (1 - wo_highlight_seen(h, job->stack, job->lens, ~0u, x, y, line, v_near));
     }
     return fmaxf(1 - hidden, 0);
 }

@@ -183,6 +183,55 @@ static void what_is_near_hides_from_the_other_side(void **state)
     wo_thin_pencils_destroy(&plain, &pencils);
 }
 
+static wo_highlights take_bounded(size_t max_bytes, const wo_lens *lens, wo_sheet sheets[2])
+{
+    wo_context context = plain;
+    context.max_bytes = max_bytes;
+    wo_highlights out;
+    sheets[0] = sheet_make(-0.8f);
+    sheets[1] = sheet_make(0.8f);
+    for (int32_t i = 0; i < WIDTH * HEIGHT; i++)
+        if (i % 7 < 5)
+            sheets[1].v[i] = NAN;
+    sheets[0].c[at(9, 3)][0] = 1004;
+    sheets[0].c[at(31, 5)][1] = 504;
+    sheets[0].v[at(31, 5)] = -0.3f; /* soft */
+    assert_int_equal(wo_highlights_take(&context, sheets, 2, area, lens, &out, NULL), WO_OK);
+    assert_int_equal(out.count, 2);
+    return out;
+}
+
+/* Whether there is room to keep the images of highlights or not. */
+static void the_same_without_room(void **state)
+{
+    (void)state;
+    wo_thin_pencils *pencils = pencils_make(10);
+    const wo_lens lens = wo_thin_pencils_lens(pencils);
+    const wo_rect tile = {0, 0, WO_TILE_WIDTH, WO_TILE_HEIGHT};
+    uint8_t opaque[WIDTH * HEIGHT];
+    memset(opaque, 1, sizeof opaque);
+    float sums[2][WO_TILE_HEIGHT][WO_TILE_WIDTH][3] = {{{{0}}}};
+    int64_t rays[2];
+    for (int i = 0; i < 2; i++) {
+        wo_sheet sheets[2];
+        wo_highlights highlights = take_bounded(i == 0 ? 0 : 1024, &lens, sheets);
+        for (int k = 0; k < 2; k++)
+            assert_int_equal(highlights.images[k].density != NULL, i == 0);
+        wo_stack stack;
+        assert_int_equal(wo_stack_create(&plain, sheets, 2, opaque, area, area, &stack, NULL),
+                         WO_OK);
+        rays[i] = wo_highlights_add(&highlights, &stack, &lens, tile, 0.8f, sums[i]);
+        wo_highlights_destroy(&plain, &highlights);
+        wo_stack_destroy(&plain, &stack);
+        for (int k = 0; k < 2; k++)
+            wo_sheet_destroy(&plain, &sheets[k]);
+    }
+    assert_true(rays[0] > 100);
+    assert_int_equal(rays[0], rays[1]);
+    assert_memory_equal(sums[0], sums[1], sizeof sums[0]);
+    wo_thin_pencils_destroy(&plain, &pencils);
+}
+
 /* Many bright pixels together are an area of light and stay, also in the corner of the picture. */
 static void areas_are_left_alone(void **state)
 {
@@ -248,6 +297,7 @@ int main(void)
         cmocka_unit_test(what_is_above_the_level_is_taken),
         cmocka_unit_test(all_light_arrives),
         cmocka_unit_test(what_is_near_hides_from_the_other_side),
+        cmocka_unit_test(the_same_without_room),
         cmocka_unit_test(areas_are_left_alone),
         cmocka_unit_test(shares_are_cheap),
         cmocka_unit_test(lenses_that_cannot_connect),
