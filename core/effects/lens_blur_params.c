@@ -280,14 +280,13 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .label = "Method",
      .unit = "",
      .group = "quality",
-     .help =
-         "How the blur is made. Hybrid: the filter, and lens rays, whose noise tells where the "
-         "filter is wrong: the best picture for the time. Rays: lens rays alone. "
-         "Filter: every pixel gathers what blurs over it; the fastest, for previews. Spread: "
-         "every pixel's light is spread over its circle of confusion, distance by distance: no "
-         "noise; Samples sets how finely distances are told apart. Accumulate: whole pictures, "
-         "each seen from one point of the lens: no noise, but ghosts. Reference: rays by brute "
-         "force, some 25 times slower, for checking.",
+     .help = "How the blur is made. Hybrid: the filter, and lens rays, whose noise tells where the "
+             "filter is wrong: the best picture for the time. Rays: lens rays alone. "
+             "Filter: every pixel gathers what blurs over it; the fastest, for previews. Spread: "
+             "every pixel's light is spread over its circle of confusion, distance by distance: no "
+             "noise; Samples sets how finely distances are told apart. Accumulate: whole pictures, "
+             "each seen from one point of the lens: no noise, but ghosts. Reference: rays by brute "
+             "force, some 25 times slower, for checking.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(method),
      .initial = {WO_METHOD_HYBRID},
