@@ -5,14 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-float wo_shown(float a, float b)
-{
-    /* What is white anyway may be as noisy as it likes. */
-    const float mean = 0.5f * (a + b);
-    const float reach = fmaxf(0.5f * fabsf(a - b), 1e-4f);
-    return (wo_display(mean + reach) - wo_display(mean - reach)) / (2 * reach);
-}
-
 float wo_noise_add(wo_noise *noise, const float a[3], const float b[3], const float light[3])
 {
     float sum = 0;

@@ -33,9 +33,6 @@ typedef struct wo_noise {
     double apart;  /* the same, times the part of their light that they do not share, 0..1 */
 } wo_noise;
 
-/* Displayed value per light between a and b, which differ by noise. */
-float wo_shown(float a, float b);
-
 /* Adds one pixel, with the light of highlights on top of both halves. Returns the mean over its
    colours of the square. */
 float wo_noise_add(wo_noise *noise, const float a[3], const float b[3], const float light[3]);

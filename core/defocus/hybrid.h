@@ -51,6 +51,12 @@ enum { WO_HYBRID_CELL = 8, WO_HYBRID_TAPS_MAX = 64, WO_HYBRID_KERNELS = 33 };
    scale. */
 float wo_hybrid_scale(float light);
 
+/* Mean over red, green and blue; the same to the bit where they agree. */
+static inline float wo_hybrid_mean(float r, float g, float b)
+{
+    return r == g && g == b ? r : (r + g + b) * (1.0f / 3);
+}
+
 /* A kernel over whole pixels. gain: how much of the variance it leaves. */
 typedef struct wo_hybrid_kernel {
     int count;

@@ -186,12 +186,6 @@ static void smooth(const wo_hybrid *h, const wo_hybrid_kernel *k, int32_t left, 
     }
 }
 
-/* Mean over red, green and blue; the same to the bit where they agree. */
-static float mean_of(float r, float g, float b)
-{
-    return r == g && g == b ? r : (r + g + b) * (1.0f / 3);
-}
-
 static float coverage_at(const wo_hybrid *h, int part, int k, ptrdiff_t at)
 {
     return h->plane[part + WO_PART_COVERAGE + k][at];
@@ -199,8 +193,8 @@ static float coverage_at(const wo_hybrid *h, int part, int k, ptrdiff_t at)
 
 static float mean_coverage(const wo_hybrid *h, int part, ptrdiff_t at)
 {
-    return mean_of(coverage_at(h, part, 0, at), coverage_at(h, part, 1, at),
-                   coverage_at(h, part, 2, at));
+    return wo_hybrid_mean(coverage_at(h, part, 0, at), coverage_at(h, part, 1, at),
+                          coverage_at(h, part, 2, at));
 }
 
 /* Colour of what lies behind the near part, where a pixel's own rays saw almost nothing of it. */
@@ -285,7 +279,7 @@ static void add_up_smooth(const wo_hybrid *h, const wo_hybrid_cell *cell, int32_
             }
             behind[3] = h->plane[WO_HYBRID_REST + 3][at] + mean_coverage(h, WO_HYBRID_FAR, at);
             open[3] = 1 - mean_coverage(h, WO_HYBRID_NEAR, at);
-            covered[3] = mean_of(covered[0], covered[1], covered[2]);
+            covered[3] = wo_hybrid_mean(covered[0], covered[1], covered[2]);
             const bool closed = fminf(fminf(open[0], open[1]), open[2]) < OPEN_MIN;
             if (closed)
                 look_around(h, near_kernel, left + x, low + y, behind);

@@ -85,11 +85,10 @@ static void noise_of(const split *all, const split *a, const split *b, float noi
     }
 }
 
-/* Over red, green and blue; the same to the bit where they agree. */
 static float mean_coverage(const float part[WO_PART_SUMS])
 {
     const float *const a = part + WO_PART_COVERAGE;
-    return a[0] == a[1] && a[1] == a[2] ? a[0] : (a[0] + a[1] + a[2]) * (1.0f / 3);
+    return wo_hybrid_mean(a[0], a[1], a[2]);
 }
 
 static void put(wo_hybrid *h, ptrdiff_t at, const split *s, float guessed,
