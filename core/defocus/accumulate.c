@@ -18,12 +18,6 @@ enum { LEVEL_MARGIN = 10 };
 /* Views are added up by so many before they join the sums, to keep rounding small. */
 enum { CHUNK = 32 };
 
-static wo_rect tile_rect(int32_t tx, int32_t ty)
-{
-    return (wo_rect){tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT, (tx + 1) * WO_TILE_WIDTH,
-                     (ty + 1) * WO_TILE_HEIGHT};
-}
-
 wo_status wo_accumulate_create(const wo_defocus *scene, wo_accumulate *all, wo_error *error)
 {
     const wo_context *context = scene->context;
@@ -95,7 +89,7 @@ double wo_accumulate_level(const wo_accumulate *all, int32_t tx, int32_t ty, int
         return 0;
     const int32_t grow = (int32_t)ceilf(tile->reach) + LEVEL_MARGIN;
     float bend = 0;
-    if (!is_whole(all, sheet, wo_rect_grow(tile_rect(tx, ty), grow, grow), &bend))
+    if (!is_whole(all, sheet, wo_rect_grow(wo_tile_rect(tx, ty), grow, grow), &bend))
         return 0;
     const double px = (double)bend * lens->px_per_dioptre;
     const double part = (LEVEL_BEND_NONE - px) / (LEVEL_BEND_NONE - LEVEL_BEND_FULL);
@@ -152,7 +146,7 @@ static void read_rays(const wo_lens *lens, unsigned set, wo_accumulator *worker,
 bool wo_accumulate_begin(const wo_accumulate *all, wo_accumulator *worker, int32_t tx, int32_t ty)
 {
     const wo_ray_tile *tile = wo_lens_rays_at(all->scene->rays, tx, ty);
-    const wo_rect rect = tile_rect(tx, ty);
+    const wo_rect rect = wo_tile_rect(tx, ty);
     float low = INFINITY;
     float high = -INFINITY;
     for (int s = 0; s < all->scene->stack->sheets; s++) {

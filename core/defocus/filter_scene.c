@@ -12,11 +12,6 @@ enum { BLOCK = 128, SHAPE_RAYS = 2048 };
 /* Surfaces of a pixel closer than this in blur are one, px. */
 #define TOGETHER_PX 0.5f
 
-static int32_t floor_div(int32_t x, int32_t d)
-{
-    return x >= 0 ? x / d : -((d - 1 - x) / d);
-}
-
 /* The circumference of a square on its corner, cut into equal parts. */
 int wo_filter_bin(float x, float y)
 {
@@ -391,8 +386,8 @@ wo_status wo_filter_scene_create(const wo_context *context, const wo_stack *stac
     *scene = (wo_filter_scene){.stack = stack, .lens = lens, .area = a};
     if (stack->sheets == 0 || wo_rect_empty(area))
         return WO_OK;
-    scene->blocks = (wo_rect){floor_div(a.x1, BLOCK), floor_div(a.y1, BLOCK),
-                              floor_div(a.x2 - 1, BLOCK) + 1, floor_div(a.y2 - 1, BLOCK) + 1};
+    scene->blocks = (wo_rect){wo_floor_div(a.x1, BLOCK), wo_floor_div(a.y1, BLOCK),
+                              wo_floor_div(a.x2 - 1, BLOCK) + 1, wo_floor_div(a.y2 - 1, BLOCK) + 1};
     const size_t blocks =
         (size_t)wo_rect_width(scene->blocks) * (size_t)wo_rect_height(scene->blocks);
     const size_t rows = (size_t)(wo_rect_height(a) / WO_CELL);
@@ -431,8 +426,8 @@ void wo_filter_scene_destroy(const wo_context *context, wo_filter_scene *scene)
 
 const wo_filter_shape *wo_filter_shape_at(const wo_filter_scene *scene, int32_t x, int32_t y)
 {
-    const int32_t column = floor_div(x, BLOCK) - scene->blocks.x1;
-    const int32_t row = floor_div(y, BLOCK) - scene->blocks.y1;
+    const int32_t column = wo_floor_div(x, BLOCK) - scene->blocks.x1;
+    const int32_t row = wo_floor_div(y, BLOCK) - scene->blocks.y1;
     return &scene->shape[row * wo_rect_width(scene->blocks) + column];
 }
 

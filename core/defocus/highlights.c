@@ -8,11 +8,6 @@
 #include <math.h>
 #include <string.h>
 
-static int32_t floor_div(int32_t x, int32_t d)
-{
-    return x >= 0 ? x / d : -((d - 1 - x) / d);
-}
-
 typedef struct take_job {
     wo_sheet *sheets;
     size_t sheet_count;
@@ -81,8 +76,7 @@ static wo_rect tile_of(wo_rect tiles, size_t index)
     const int32_t columns = wo_rect_width(tiles);
     const int32_t tx = tiles.x1 + (int32_t)(index % (size_t)columns);
     const int32_t ty = tiles.y1 + (int32_t)(index / (size_t)columns);
-    return (wo_rect){tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT, (tx + 1) * WO_TILE_WIDTH,
-                     (ty + 1) * WO_TILE_HEIGHT};
+    return wo_tile_rect(tx, ty);
 }
 
 static void count_tile(void *user, size_t index, unsigned worker)
@@ -181,9 +175,10 @@ wo_status wo_highlights_take(const wo_context *context, wo_sheet *sheets, size_t
     *highlights = (wo_highlights){0};
     if ((!lens->connect && !lens->iris.rays) || wo_rect_empty(area))
         return WO_OK;
-    const wo_rect tiles = {floor_div(area.x1, WO_TILE_WIDTH), floor_div(area.y1, WO_TILE_HEIGHT),
-                           floor_div(area.x2 - 1, WO_TILE_WIDTH) + 1,
-                           floor_div(area.y2 - 1, WO_TILE_HEIGHT) + 1};
+    const wo_rect tiles = {wo_floor_div(area.x1, WO_TILE_WIDTH),
+                           wo_floor_div(area.y1, WO_TILE_HEIGHT),
+                           wo_floor_div(area.x2 - 1, WO_TILE_WIDTH) + 1,
+                           wo_floor_div(area.y2 - 1, WO_TILE_HEIGHT) + 1};
     highlights->tiles = tiles;
     take_job job = {sheets, count, lens, highlights, wo_rect_grow(tiles, 1, 1), NULL};
     const size_t counted = (size_t)wo_rect_width(job.tiles) * (size_t)wo_rect_height(job.tiles);
@@ -429,11 +424,11 @@ int64_t wo_highlights_add(const wo_highlights *highlights, const wo_stack *stack
         return add_drawn(highlights, tile, sums);
     const int32_t reach = wo_highlight_extent(highlights->reach);
     const wo_rect grown = wo_rect_grow(tile, reach, reach);
-    const wo_rect tiles = wo_rect_intersect(highlights->tiles,
-                                            (wo_rect){floor_div(grown.x1, WO_TILE_WIDTH),
-                                                      floor_div(grown.y1, WO_TILE_HEIGHT),
-                                                      floor_div(grown.x2 - 1, WO_TILE_WIDTH) + 1,
-                                                      floor_div(grown.y2 - 1, WO_TILE_HEIGHT) + 1});
+    const wo_rect tiles = wo_rect_intersect(
+        highlights->tiles,
+        (wo_rect){wo_floor_div(grown.x1, WO_TILE_WIDTH), wo_floor_div(grown.y1, WO_TILE_HEIGHT),
+                  wo_floor_div(grown.x2 - 1, WO_TILE_WIDTH) + 1,
+                  wo_floor_div(grown.y2 - 1, WO_TILE_HEIGHT) + 1});
     for (int32_t ty = tiles.y1; ty < tiles.y2; ty++) {
         const size_t row =
             (size_t)(ty - highlights->tiles.y1) * (size_t)wo_rect_width(highlights->tiles);

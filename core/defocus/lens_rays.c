@@ -7,24 +7,13 @@
 #include <math.h>
 #include <string.h>
 
-static int32_t floor_div(int32_t x, int32_t d)
-{
-    return x >= 0 ? x / d : -((d - 1 - x) / d);
-}
-
 wo_rect wo_tiles_of(wo_rect r)
 {
     if (wo_rect_empty(r))
         return (wo_rect){0};
-    return (wo_rect){floor_div(r.x1, WO_TILE_WIDTH), floor_div(r.y1, WO_TILE_HEIGHT),
-                     floor_div(r.x2 - 1, WO_TILE_WIDTH) + 1,
-                     floor_div(r.y2 - 1, WO_TILE_HEIGHT) + 1};
-}
-
-static wo_rect tile_rect(int32_t tx, int32_t ty)
-{
-    return (wo_rect){tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT, (tx + 1) * WO_TILE_WIDTH,
-                     (ty + 1) * WO_TILE_HEIGHT};
+    return (wo_rect){wo_floor_div(r.x1, WO_TILE_WIDTH), wo_floor_div(r.y1, WO_TILE_HEIGHT),
+                     wo_floor_div(r.x2 - 1, WO_TILE_WIDTH) + 1,
+                     wo_floor_div(r.y2 - 1, WO_TILE_HEIGHT) + 1};
 }
 
 bool wo_lens_rays_blocks(const wo_lens_rays *rays, int sheet, wo_rect r, float *v_min)
@@ -106,7 +95,7 @@ static wo_ray_tile classify(const wo_lens_rays *rays, int32_t tx, int32_t ty, do
                             unsigned leave_out)
 {
     wo_ray_tile tile = {.class = WO_TILE_EMPTY, .v_near = -INFINITY};
-    survey found = {.rect = tile_rect(tx, ty)};
+    survey found = {.rect = wo_tile_rect(tx, ty)};
     find_bounds(rays, max_reach, &found, &tile);
     if (leave_out & WO_LEAVE_OUT_HIDDEN)
         cut_hidden(rays, &found, &tile);
@@ -277,7 +266,7 @@ void wo_tile_work_begin(const wo_lens_rays *rays, const wo_context *context, int
     work->tile = wo_lens_rays_at(rays, tx, ty);
     work->tx = tx;
     work->ty = ty;
-    work->rect = tile_rect(tx, ty);
+    work->rect = wo_tile_rect(tx, ty);
     work->view = view_of(rays, work->tile);
     work->view.v_apart = v_apart;
 }

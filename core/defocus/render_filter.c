@@ -335,8 +335,7 @@ static bool gather_tile(void *user, int32_t tx, int32_t ty, unsigned worker, wo_
     memset(pixels, 0, sizeof *pixels);
     part->tiles[tile->class]++;
     tile_job t = {.job = job, .tile = tile, .shape = shape, .limit = reach_of(tile)};
-    t.rect = (wo_rect){tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT, (tx + 1) * WO_TILE_WIDTH,
-                       (ty + 1) * WO_TILE_HEIGHT};
+    t.rect = wo_tile_rect(tx, ty);
     t.view = wo_filter_view_of(&job->filter, wo_rect_grow(t.rect, t.limit, t.limit));
     t.view.hole = t.shape->hole;
     find_sides(&t);
@@ -431,8 +430,7 @@ static wo_rect seen_area(const filter_job *job)
         for (int32_t tx = tiles.x1; tx < tiles.x2; tx++) {
             const wo_ray_tile *tile = wo_lens_rays_at(job->scene->rays, tx, ty);
             const int32_t reach = reach_of(tile);
-            const wo_rect rect = {tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT, (tx + 1) * WO_TILE_WIDTH,
-                                  (ty + 1) * WO_TILE_HEIGHT};
+            const wo_rect rect = wo_tile_rect(tx, ty);
             if (tile->class != WO_TILE_EMPTY && !wo_ray_tile_straight(tile))
                 area = wo_rect_union(area, wo_rect_grow(rect, reach, reach));
         }

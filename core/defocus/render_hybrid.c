@@ -30,15 +30,10 @@ typedef struct hybrid_job {
     wo_hybrid_lean *lean;        /* [cells] */
 } hybrid_job;
 
-static int32_t cells_before(int32_t x)
-{
-    return x >= 0 ? x / CELL : -((CELL - 1 - x) / CELL);
-}
-
 static wo_rect in_cells(wo_rect r)
 {
-    return (wo_rect){cells_before(r.x1), cells_before(r.y1), cells_before(r.x2 - 1) + 1,
-                     cells_before(r.y2 - 1) + 1};
+    return (wo_rect){wo_floor_div(r.x1, CELL), wo_floor_div(r.y1, CELL),
+                     wo_floor_div(r.x2 - 1, CELL) + 1, wo_floor_div(r.y2 - 1, CELL) + 1};
 }
 
 static wo_rect in_px(wo_rect cells)

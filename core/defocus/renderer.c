@@ -29,8 +29,7 @@ float wo_display(float x)
 /* Is a tile, or one that it reaches, looked at by anybody? */
 static bool wanted(const wo_frame *frame, int32_t tx, int32_t ty, int32_t reach)
 {
-    const wo_rect tile = {tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT, (tx + 1) * WO_TILE_WIDTH,
-                          (ty + 1) * WO_TILE_HEIGHT};
+    const wo_rect tile = wo_tile_rect(tx, ty);
     const wo_rect r =
         wo_rect_intersect(wo_tiles_of(wo_rect_grow(tile, reach, reach)), frame->tiles);
     for (int32_t y = r.y1; y < r.y2; y++)
@@ -180,8 +179,7 @@ bool wo_tile_find_light(const wo_defocus *scene, int32_t tx, int32_t ty, wo_tile
     const wo_ray_tile *tile = wo_lens_rays_at(scene->rays, tx, ty);
     if (!scene->highlights || scene->highlights->count == 0 || tile->class == WO_TILE_EMPTY)
         return false;
-    const wo_rect rect = {tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT, (tx + 1) * WO_TILE_WIDTH,
-                          (ty + 1) * WO_TILE_HEIGHT};
+    const wo_rect rect = wo_tile_rect(tx, ty);
     const int64_t rays =
         wo_highlights_add(scene->highlights, scene->stack, scene->lens, rect, tile->v_near, light);
     part->rays += rays;

@@ -15,9 +15,7 @@ wo_rect wo_spread_footprint(const wo_defocus *scene, int32_t tx, int32_t ty)
 {
     const int32_t reach =
         (int32_t)ceilf(wo_lens_rays_at(scene->rays, tx, ty)->footprint) + WO_RAYS_MARGIN;
-    return wo_rect_grow((wo_rect){tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT, (tx + 1) * WO_TILE_WIDTH,
-                                  (ty + 1) * WO_TILE_HEIGHT},
-                        reach, reach);
+    return wo_rect_grow(wo_tile_rect(tx, ty), reach, reach);
 }
 
 static int32_t end_of(const ends_job *job, int32_t tx, int32_t ty)

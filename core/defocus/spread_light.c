@@ -67,11 +67,6 @@ typedef struct light_job {
     atomic_bool failed;
 } light_job;
 
-static int32_t floor_div(int32_t x, int32_t d)
-{
-    return x >= 0 ? x / d : -((d - 1 - x) / d);
-}
-
 static int compare_floats(const void *a, const void *b)
 {
     const float x = *(const float *)a;
@@ -123,8 +118,8 @@ static uint32_t place_of(const wo_spread_light *light, wo_spread_place at)
 {
     const double r = at.v * light->px_per_dioptre;
     const double n = fmin(rint(light->fine * number_of_radius(fabs(r))), light->radii);
-    const int32_t zx = floor_div(at.x, WO_ZONE) - light->zones.x1;
-    const int32_t zy = floor_div(at.y, WO_ZONE) - light->zones.y1;
+    const int32_t zx = wo_floor_div(at.x, WO_ZONE) - light->zones.x1;
+    const int32_t zy = wo_floor_div(at.y, WO_ZONE) - light->zones.y1;
     const int32_t zone = light->same ? 0 : zy * wo_rect_width(light->zones) + zx;
     return (uint32_t)zone * (uint32_t)(2 * light->radii + 1) +
            (uint32_t)((int32_t)copysign(n, r) + light->radii);
@@ -364,8 +359,8 @@ static wo_status survey(light_job *job, wo_error *error)
     light->zones = (wo_rect){0, 0, 1, 1};
     if (zoned)
         light->zones =
-            (wo_rect){floor_div(r.x1, WO_ZONE), floor_div(r.y1, WO_ZONE),
-                      floor_div(r.x2 - 1, WO_ZONE) + 1, floor_div(r.y2 - 1, WO_ZONE) + 1};
+            (wo_rect){wo_floor_div(r.x1, WO_ZONE), wo_floor_div(r.y1, WO_ZONE),
+                      wo_floor_div(r.x2 - 1, WO_ZONE) + 1, wo_floor_div(r.y2 - 1, WO_ZONE) + 1};
     else
         WO_TRY(find_exact(job->scene, light, error));
     light->places = (size_t)wo_rect_width(light->zones) * (size_t)wo_rect_height(light->zones) *

@@ -62,6 +62,19 @@ typedef struct wo_stack {
     void *cell_memory;
 } wo_stack;
 
+/* Towards minus infinity; d > 0. */
+static inline int32_t wo_floor_div(int32_t x, int32_t d)
+{
+    return x >= 0 ? x / d : -((d - 1 - x) / d);
+}
+
+/* Tile (tx, ty) of the absolute grid, in px. */
+static inline wo_rect wo_tile_rect(int32_t tx, int32_t ty)
+{
+    return (wo_rect){tx * WO_TILE_WIDTH, ty * WO_TILE_HEIGHT, (tx + 1) * WO_TILE_WIDTH,
+                     (ty + 1) * WO_TILE_HEIGHT};
+}
+
 /* Place of pixel (x, y) in a plane. */
 static inline ptrdiff_t wo_stack_at(const wo_stack *stack, int32_t x, int32_t y)
 {
