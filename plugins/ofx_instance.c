@@ -6,6 +6,8 @@
 #include "ofx_geometry.h"
 #include "ofx_params.h"
 
+#include <stdio.h>
+
 OfxStatus wo_ofx_instance_create(const wo_ofx_plugin *plugin, OfxImageEffectHandle handle)
 {
     const wo_ofx_suites *const suites = &plugin->suites;
@@ -20,6 +22,8 @@ OfxStatus wo_ofx_instance_create(const wo_ofx_plugin *plugin, OfxImageEffectHand
         return kOfxStatErrMemory;
     atomic_init(&instance->complaining, false);
     atomic_init(&instance->progressing, false);
+    atomic_init(&instance->warning, 0);
+    atomic_init(&instance->popped_up, 0);
     /* A host that cannot keep it must do without the flags. */
     if (suites->property->propSetPointer(properties, kOfxPropInstanceData, 0, instance) !=
         kOfxStatOK)
@@ -100,6 +104,8 @@ static void complain(const wo_ofx_action *action)
     const char *const text =
         action->error.text[0] ? action->error.text : wo_status_text(action->error.status);
 
+    if (instance)
+        atomic_store(&instance->warning, 0); /* one text at a time stands there */
     if (suites->message2 && suites->message2->setPersistentMessage) {
         suites->message2->setPersistentMessage(action->handle, kOfxMessageError, "WideOpenError",
                                                "%s", text);
@@ -133,4 +139,47 @@ OfxStatus wo_ofx_action_end(wo_ofx_action *action, wo_status status, bool done)
         make_up(action);
     }
     return wo_ofx_status(status);
+}
+
+/* FNV-1a, never 0. */
+static uint64_t hash_of(const char *text)
+{
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (; *text; text++)
+        hash = (hash ^ (unsigned char)*text) * 0x100000001b3u;
+    return hash ? hash : 1;
+}
+
+void wo_ofx_warn(const wo_ofx_action *action, const wo_report *report, bool whole)
+{
+    const OfxMessageSuiteV1 *const one = action->suites->message;
+    const OfxMessageSuiteV2 *const two = action->suites->message2;
+    wo_ofx_instance *const instance = action->instance;
+    char text[WO_WARNINGS_MAX * (WO_WARNING_SIZE + 1)] = "";
+    uint64_t kinds = 0;
+    size_t used = 0;
+    for (int i = 0; i < report->warning_count; i++) {
+        kinds |= (uint64_t)1 << hash_of(report->warnings[i].key) % 64;
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", used ? "\n" : "",
+                                 report->warnings[i].text);
+    }
+    if (!used) {
+        if (whole && instance && atomic_exchange(&instance->warning, 0) && two &&
+            two->clearPersistentMessage)
+            two->clearPersistentMessage(action->handle);
+        return;
+    }
+    if (two && two->setPersistentMessage) {
+        const uint64_t hash = hash_of(text);
+        if (!instance || atomic_exchange(&instance->warning, hash) != hash)
+            two->setPersistentMessage(action->handle, kOfxMessageWarning, "WideOpenWarning", "%s",
+                                      text);
+        return;
+    }
+    if (!instance || (atomic_fetch_or(&instance->popped_up, kinds) & kinds) == kinds)
+        return;
+    if (one && one->message)
+        one->message(action->handle, kOfxMessageWarning, "WideOpenWarning", "%s", text);
+    else if (two && two->message)
+        two->message(action->handle, kOfxMessageWarning, "WideOpenWarning", "%s", text);
 }

@@ -12,6 +12,8 @@
    one render at a time owns the progress bar. Everything else is asked from the host anew. */
 typedef struct wo_ofx_instance {
     atomic_bool complaining;
+    atomic_uint_least64_t warning;   /* hash of the text beside the node, 0 = there is none */
+    atomic_uint_least64_t popped_up; /* a bit for each kind of warning, by the hash of its key */
     atomic_bool progressing;
 } wo_ofx_instance;
 
@@ -56,6 +58,11 @@ WO_NODISCARD wo_status wo_ofx_action_read(wo_ofx_action *action);
 /* Gives back what reading took; shows the error of a failure to the user, or takes the last one
    away after a success. done says that the action has done what the user wants to see. */
 OfxStatus wo_ofx_action_end(wo_ofx_action *action, wo_status status, bool done);
+
+/* Shows the warnings of a render to the user, after wo_ofx_action_end: beside the node, where they
+   stay until the whole picture is rendered without any; in hosts that cannot do that in a window,
+   once for each kind. */
+void wo_ofx_warn(const wo_ofx_action *action, const wo_report *report, bool whole);
 
 /* Whether the host says that something is attached to a clip. */
 bool wo_ofx_clip_connected(const wo_ofx_action *action, size_t clip);

@@ -6,6 +6,7 @@
 #include "ofx_images.h"
 #include "ofx_runner.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* A render action on its way: what abort polls and progress of all workers share. */
@@ -116,6 +117,15 @@ static wo_status publish_report(wo_ofx_action *action, const wo_report *report)
     return WO_OK;
 }
 
+static void publish_warnings(wo_ofx_action *action, const wo_report *report)
+{
+    for (int i = 0; i < report->warning_count; i++) {
+        char text[64 + WO_WARNING_SIZE];
+        snprintf(text, sizeof text, "%s: %s", report->warnings[i].key, report->warnings[i].text);
+        action->suites->report->publish(action->handle, "warning", text);
+    }
+}
+
 typedef struct job {
     wo_rect window;
     wo_ofx_image output;
@@ -123,6 +133,7 @@ typedef struct job {
     wo_image views[WO_CLIPS_MAX];
     wo_rect opened[WO_CLIPS_MAX]; /* what was asked for of each input */
     wo_plan_args args;
+    wo_report report;
 } job;
 
 static wo_status read_window(wo_ofx_action *action, wo_rect *window)
@@ -173,7 +184,6 @@ static wo_status plan_and_render(wo_ofx_action *action, job *j, int mode)
     wo_ofx_threads threads = wo_ofx_threads_of(action->suites);
     watch w = {.suites = action->suites, .handle = action->handle};
     wo_context context = action->context;
-    wo_report report = {.pixels = 0};
     wo_plan *plan = NULL;
 
     atomic_init(&w.stopped, false);
@@ -193,17 +203,21 @@ static wo_status plan_and_render(wo_ofx_action *action, job *j, int mode)
         progress_start(&w, action->instance, effect->label);
     wo_status status =
         effect->plan_create(&context, action->params, &j->args, &plan, &action->error);
-    if (status == WO_OK && mode == kWideOpenReportExplain)
+    if (status == WO_OK && mode == kWideOpenReportExplain) {
+        if (effect->plan_report)
+            publish_warnings(action, effect->plan_report(plan));
         status = publish_plan(action, plan);
-    else if (status == WO_OK)
-        status = effect->render(plan, j->window, &j->output.view,
-                                mode == kWideOpenReportRender ? &report : NULL, &action->error);
+    } else if (status == WO_OK) {
+        status = effect->render(plan, j->window, &j->output.view, &j->report, &action->error);
+    }
     effect->plan_destroy(&plan);
     progress_end(&w);
     if (status == WO_OK && mode != kWideOpenReportExplain) {
         wo_ofx_finish_output(&j->output);
-        if (mode == kWideOpenReportRender)
-            status = publish_report(action, &report);
+        if (mode == kWideOpenReportRender) {
+            publish_warnings(action, &j->report);
+            status = publish_report(action, &j->report);
+        }
     }
     return status;
 }
@@ -249,5 +263,9 @@ OfxStatus wo_ofx_render(const wo_ofx_plugin *plugin, OfxImageEffectHandle handle
     for (size_t i = 0; i < action.effect->clip_count; i++)
         wo_ofx_close(&action, &j.inputs[i]);
     wo_ofx_close(&action, &j.output);
-    return wo_ofx_action_end(&action, status, true);
+    const bool whole = wo_rect_contains(j.window, action.geometry.extent);
+    const OfxStatus answer = wo_ofx_action_end(&action, status, true);
+    if (status == WO_OK && report_mode(&action) == kWideOpenReportNone)
+        wo_ofx_warn(&action, &j.report, whole);
+    return answer;
 }

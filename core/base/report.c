@@ -84,6 +84,37 @@ void wo_report_camera(wo_report *report, const char *key, double value, const ch
     report->camera_count = uses(report) + 1;
 }
 
+static int warned(const wo_report *report)
+{
+    const int count = report->warning_count;
+    return count < 0 ? 0 : count > WO_WARNINGS_MAX ? WO_WARNINGS_MAX : count;
+}
+
+/* Room for a warning's text; NULL when the key has one or none is left. */
+static wo_warning *new_warning(wo_report *report, const char *key)
+{
+    const int count = warned(report);
+    for (int i = 0; i < count; i++)
+        if (strcmp(or_empty(report->warnings[i].key), or_empty(key)) == 0)
+            return NULL;
+    if (count == WO_WARNINGS_MAX)
+        return NULL;
+    report->warning_count = count + 1;
+    report->warnings[count].key = or_empty(key);
+    return &report->warnings[count];
+}
+
+void wo_report_warn(wo_report *report, const char *key, const char *format, ...)
+{
+    wo_warning *const warning = report ? new_warning(report, key) : NULL;
+    if (!warning)
+        return;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(warning->text, sizeof warning->text, format, arguments);
+    va_end(arguments);
+}
+
 void wo_report_add(wo_report *total, const wo_report *part)
 {
     if (!total || !part)
@@ -119,6 +150,8 @@ void wo_report_add(wo_report *total, const wo_report *part)
         memcpy(total->camera, part->camera, sizeof total->camera);
         total->camera_count = uses(part);
     }
+    for (int i = 0; i < warned(part); i++)
+        wo_report_warn(total, part->warnings[i].key, "%s", part->warnings[i].text);
 }
 
 /* Text that grows in a buffer of the caller and keeps counting when the buffer is full. */
@@ -218,6 +251,19 @@ static void put_camera(writer *out, const wo_report *report)
     put(out, "]");
 }
 
+static void put_warnings(writer *out, const wo_report *report)
+{
+    put(out, ", \"warnings\": [");
+    for (int i = 0; i < warned(report); i++) {
+        put(out, "%s{\"key\": ", i ? ", " : "");
+        put_string(out, report->warnings[i].key);
+        put(out, ", \"text\": ");
+        put_string(out, report->warnings[i].text);
+        put(out, "}");
+    }
+    put(out, "]");
+}
+
 /* Root mean squares; null where nothing was estimated. */
 static void put_errors(writer *out, const wo_report *report)
 {
@@ -286,6 +332,7 @@ int wo_report_json(const wo_report *report, char *buffer, size_t size)
     }
     put(&out, "]");
     put_camera(&out, report);
+    put_warnings(&out, report);
     put(&out, "}");
 
     /* Half an object is of no use to a parser: what does not fit becomes an empty one. */

@@ -190,6 +190,7 @@ const wo_effect wo_lens_blur = {
     .handles = wo_lens_blur_handles,
     .plan_create = wo_lens_blur_plan_create,
     .plan_print = wo_lens_blur_plan_print,
+    .plan_report = wo_lens_blur_plan_report,
     .render = wo_lens_blur_render,
     .plan_destroy = wo_lens_blur_plan_destroy,
 };

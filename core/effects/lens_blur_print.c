@@ -40,6 +40,17 @@ static void add_camera(printer *p, const wo_camera_use *use)
     add(p, "\n");
 }
 
+static void add_warnings(printer *p, const wo_report *report)
+{
+    for (int i = 0; i < report->warning_count; i++)
+        add(p, "warning     %s\n", report->warnings[i].text);
+}
+
+const wo_report *wo_lens_blur_plan_report(const wo_plan *plan)
+{
+    return &plan->report;
+}
+
 int wo_lens_blur_plan_print(const wo_plan *plan, char *buffer, size_t size)
 {
     printer p = {buffer, size, 0};
@@ -85,6 +96,7 @@ int wo_lens_blur_plan_print(const wo_plan *plan, char *buffer, size_t size)
     }
     if (plan->copy) {
         add(&p, "blur        none: all in focus, the source is copied\n");
+        add_warnings(&p, &plan->report);
         return p.length;
     }
     add(&p, "blur        largest radius %.2f px (limit %.2f px)\n", reach, s->radius);
@@ -106,5 +118,6 @@ int wo_lens_blur_plan_print(const wo_plan *plan, char *buffer, size_t size)
     for (int i = 0; i < plan->report.left_out_count; i++)
         add(&p, "left out    %s: %s\n", plan->report.left_out[i].what,
             plan->report.left_out[i].why);
+    add_warnings(&p, &plan->report);
     return p.length;
 }

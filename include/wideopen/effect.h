@@ -114,6 +114,10 @@ typedef struct wo_effect {
     /* Plan as text for people, as snprintf. */
     int (*plan_print)(const wo_plan *plan, char *buffer, size_t size);
 
+    /* What planning has to report; its warnings are known before anything is rendered. Borrowed
+       from the plan. NULL: planning warns of nothing. */
+    const wo_report *(*plan_report)(const wo_plan *plan);
+
     /* Writes window of output (RGBA, premultiplied); window must lie inside the planned one and
        output->bounds; its part beyond geometry.extent becomes 0. report may be NULL; else it is
        added to. Any thread, also several windows of one plan at once. Returns

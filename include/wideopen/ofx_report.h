@@ -17,6 +17,7 @@ typedef enum WideOpenReportMode {
 typedef struct WideOpenReportSuiteV1 {
     /* effect: the OfxImageEffectHandle of the instance. Any thread, during the render action. */
     int (*mode)(void *effect);
+    /* In both modes warnings may come first, each as kind "warning", text "KEY: what was found". */
     int (*publish)(void *effect, const char *kind, const char *text); /* text is copied; 0 = ok */
 } WideOpenReportSuiteV1;
 

@@ -58,6 +58,15 @@ typedef struct wo_camera_use {
 
 #define WO_CAMERA_USES_MAX (WO_CAMERA_VALUES + WO_CAMERA_REFUSALS_MAX)
 
+enum { WO_WARNINGS_MAX = 8, WO_WARNING_SIZE = 384 };
+
+/* What a user has to know, though the picture could be made: input that cannot be what was meant, a
+   promise that is not kept. */
+typedef struct wo_warning {
+    const char *key; /* names the kind, the same in every release: "depth-negative". Constant. */
+    char text[WO_WARNING_SIZE]; /* what was found, and what to do */
+} wo_warning;
+
 /* What a render did and what it cost. Plain data, filled by the core, owned by the caller. */
 typedef struct wo_report {
     double seconds[WO_STAGE_COUNT]; /* wall clock */
@@ -81,6 +90,8 @@ typedef struct wo_report {
     wo_left_out left_out[WO_LEFT_OUT_MAX];
     int camera_count;
     wo_camera_use camera[WO_CAMERA_USES_MAX];
+    int warning_count;
+    wo_warning warnings[WO_WARNINGS_MAX];
 } wo_report;
 
 const char *wo_stage_text(wo_stage stage);
@@ -95,8 +106,12 @@ void wo_report_leave_out(wo_report *report, const char *what, const char *why, d
 void wo_report_camera(wo_report *report, const char *key, double value, const char *unit,
                       const char *name, const char *why);
 
+/* Warns. The text stays as it is where the key has one already; beyond WO_WARNINGS_MAX, or without
+   a report, it is dropped. key is a constant text without blanks and colons. */
+void wo_report_warn(wo_report *report, const char *key, const char *format, ...) WO_PRINTF(3, 4);
+
 /* Adds the counters of part to total (several windows of one picture). The camera is that of the
-   first part that has one. */
+   first part that has one, and so is the text of each warning. */
 void wo_report_add(wo_report *total, const wo_report *part);
 
 /* One JSON object, always complete and valid; what is not finite becomes null, and when it does not

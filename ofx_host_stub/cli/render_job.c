@@ -36,6 +36,18 @@ static void publish(void *user, const char *kind, const char *text)
         wo_message("out of memory: a report of the plugin is lost");
 }
 
+/* Each kind of warning once, not while the bar is drawn. */
+static void tell_warnings(wo_render_job *job)
+{
+    for (; job->warnings_told < job->record.warning_count; job->warnings_told++) {
+        const wo_warning_record *const w = &job->record.warnings[job->warnings_told];
+        if (job->frames.count > 1)
+            wo_message("warning: frame %d: %s", w->frame, w->text);
+        else
+            wo_message("warning: %s", w->text);
+    }
+}
+
 /* ------------------------------------------------------------------------------------ one frame */
 
 /* The project's pixels at the scale of the render. */
@@ -122,7 +134,7 @@ static wo_status render_image(wo_render_job *job, wo_frame_record *frame, wo_ima
     args.last_frame = job->frames.last;
     args.frame_step = job->frames.step;
     args.report = job->explain ? WO_HOST_REPORT_EXPLAIN : WO_HOST_REPORT_RENDER;
-    args.report_user = frame;
+    args.report_user = &job->record;
     args.publish = publish;
     wo_bar_begin(&job->bar,
                  wo_bar_wanted(wo_args_count(job->args, "--progress") > 0,
@@ -135,6 +147,7 @@ static wo_status render_image(wo_render_job *job, wo_frame_record *frame, wo_ima
     pthread_mutex_lock(&job->lock);
     wo_bar_end(&job->bar);
     pthread_mutex_unlock(&job->lock);
+    tell_warnings(job);
     frame->window = result.window;
     frame->actions = result.tiles;
     frame->identity = result.identity;

@@ -31,6 +31,7 @@ typedef struct wo_render_job {
     wo_colour *colour;
     wo_inputs *inputs;
     wo_record record;
+    size_t warnings_told;   /* of record's */
     double opening_seconds; /* spent on reading files before the first frame */
 
     wo_bar bar; /* drawn by whichever thread has news; guarded by lock */

@@ -42,8 +42,46 @@ wo_frame_record *wo_record_next(wo_record *record, int frame)
     return next;
 }
 
-bool wo_record_publish(wo_frame_record *frame, const char *kind, const char *text)
+bool wo_record_warn(wo_record *record, const char *key, const char *text)
 {
+    for (size_t i = 0; i < record->warning_count; i++)
+        if (strcmp(record->warnings[i].key, key) == 0)
+            return true;
+    wo_warning_record *const warnings =
+        realloc(record->warnings, (record->warning_count + 1) * sizeof *warnings);
+    if (!warnings)
+        return false;
+    record->warnings = warnings;
+    wo_warning_record *const next = &warnings[record->warning_count];
+    *next = (wo_warning_record){
+        .frame = record->frame_count ? record->frames[record->frame_count - 1].frame : 0,
+        .key = strdup(key),
+        .text = strdup(text)};
+    if (!next->key || !next->text) {
+        free(next->key);
+        free(next->text);
+        return false;
+    }
+    record->warning_count++;
+    return true;
+}
+
+/* "KEY: TEXT" */
+static bool keep_warning(wo_record *record, const char *said)
+{
+    char key[64];
+    const char *const colon = strstr(said, ": ");
+    if (!colon || (size_t)(colon - said) >= sizeof key)
+        return wo_record_warn(record, said, said);
+    snprintf(key, sizeof key, "%.*s", (int)(colon - said), said);
+    return wo_record_warn(record, key, colon + 2);
+}
+
+bool wo_record_publish(wo_record *record, const char *kind, const char *text)
+{
+    if (strcmp(kind, "warning") == 0)
+        return keep_warning(record, text);
+    wo_frame_record *const frame = &record->frames[record->frame_count - 1];
     const bool report = strcmp(kind, "report") == 0;
     if (!report && strcmp(kind, "plan") != 0)
         return true;
@@ -78,6 +116,11 @@ void wo_record_free(wo_record *record)
     }
     for (size_t i = 0; i < record->param_count; i++)
         free(record->params[i].value);
+    for (size_t i = 0; i < record->warning_count; i++) {
+        free(record->warnings[i].key);
+        free(record->warnings[i].text);
+    }
+    free(record->warnings);
     free(record->params);
     free(record->frames);
     *record = (wo_record){0};
@@ -153,6 +196,19 @@ static void write_params(wo_json *json, const wo_record *record)
     wo_json_close(json);
 }
 
+static void write_warnings(wo_json *json, const wo_record *record)
+{
+    wo_json_array(json, "warnings");
+    for (size_t i = 0; i < record->warning_count; i++) {
+        wo_json_object(json, NULL);
+        wo_json_integer(json, "frame", record->warnings[i].frame);
+        wo_json_text(json, "key", record->warnings[i].key);
+        wo_json_text(json, "text", record->warnings[i].text);
+        wo_json_close(json);
+    }
+    wo_json_close(json);
+}
+
 static void write_sums(wo_json *json, const wo_record *record)
 {
     double total = 0;
@@ -190,6 +246,7 @@ void wo_record_write(const wo_record *record, wo_host *host, const wo_inputs *in
         write_frame(&json, &record->frames[i]);
     wo_json_close(&json);
     write_sums(&json, record);
+    write_warnings(&json, record);
     wo_json_array(&json, "violations");
     for (size_t i = 0; i < wo_host_violation_count(host); i++)
         wo_json_text(&json, NULL, wo_host_violation(host, i));

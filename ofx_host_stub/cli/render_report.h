@@ -13,11 +13,11 @@
     "clips": {name: {"file", "space"}}, "params": {name: text}, "keys": {name: count},
     "frames": [{"frame", "output", "window", "identity", "actions",
                 "seconds": {"read", "render", "write"}, "rays", "reports": [...], "plan"}],
-    "rays", "seconds", "violations": [...], "ok", "error"}
+    "rays", "seconds", "warnings": [{"frame", "key", "text"}], "violations": [...], "ok", "error"}
 
    params are the values at the first frame, keys those that change over time. reports holds what
    the plugin said of itself, one object for each render action. rays is their sum, null when the
-   plugin reports none. */
+   plugin reports none. warnings holds the first of each key. */
 
 typedef struct wo_frame_record {
     int frame;
@@ -38,6 +38,11 @@ typedef struct wo_param_record {
     unsigned keys;
 } wo_param_record;
 
+typedef struct wo_warning_record {
+    int frame;
+    char *key, *text;
+} wo_warning_record;
+
 typedef struct wo_record {
     const wo_host_plugin *plugin; /* borrowed, as context */
     const wo_host_context_info *context;
@@ -45,6 +50,8 @@ typedef struct wo_record {
     size_t param_count;
     wo_frame_record *frames;
     size_t frame_count;
+    wo_warning_record *warnings;
+    size_t warning_count;
     double seconds;
 } wo_record;
 
@@ -54,9 +61,13 @@ bool wo_record_begin(wo_record *record, wo_host_instance *instance, double time)
 /* Starts the next frame's record; NULL without memory. Good until the next one is started. */
 wo_frame_record *wo_record_next(wo_record *record, int frame);
 
-/* Keeps a text the plugin published; false without memory. Other kinds than "report" and "plan" are
-   dropped. */
-bool wo_record_publish(wo_frame_record *frame, const char *kind, const char *text);
+/* Keeps a text the plugin published in the latest frame; false without memory. Other kinds than
+   "report", "plan" and "warning" are dropped. */
+bool wo_record_publish(wo_record *record, const char *kind, const char *text);
+
+/* Keeps a warning about the latest frame, if it is the first one of its key; false without memory.
+ */
+bool wo_record_warn(wo_record *record, const char *key, const char *text);
 
 void wo_record_free(wo_record *record);
 

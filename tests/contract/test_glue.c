@@ -329,8 +329,8 @@ static void errors_are_shown_and_go_away(void **state)
 }
 
 typedef struct published {
-    int plans, reports;
-    char text[4096];
+    int plans, reports, warnings;
+    char text[4096], said[256];
 } published;
 
 static void keep(void *user, const char *kind, const char *text)
@@ -338,6 +338,11 @@ static void keep(void *user, const char *kind, const char *text)
     published *const p = user;
     p->plans += strcmp(kind, "plan") == 0;
     p->reports += strcmp(kind, "report") == 0;
+    if (strcmp(kind, "warning") == 0) {
+        const size_t used = strlen(p->said);
+        p->warnings++;
+        snprintf(p->said + used, sizeof p->said - used, "%s\n", text);
+    }
     snprintf(p->text, sizeof p->text, "%s", text);
 }
 
@@ -348,7 +353,7 @@ static void plans_and_reports_are_published(void **state)
     reset_clips(2);
     wo_host_instance *instance = create(host, "General", 2);
     setup s = default_setup();
-    published p = {0, 0, ""};
+    published p = {0};
     s.aspect = 2;
     s.scale[0] = s.scale[1] = 0.5;
     s.connected[PROBE_MASK] = s.connected[PROBE_EXTRA] = false;
@@ -374,6 +379,46 @@ static void plans_and_reports_are_published(void **state)
     assert_non_null(strstr(p.text, "format=0,0,16,24\nextent=-2,2,16,20\n"));
     assert_non_null(strstr(p.text, "scale=0.500000\nstretch=2.000000\n"));
     assert_non_null(strstr(p.text, "connected=1100\npixels=4300\n"));
+    wo_host_instance_destroy(&instance);
+    close_host(&host);
+}
+
+/* A host that asks for reports gets the warnings there, and not as messages, too. */
+static void warnings_are_published(void **state)
+{
+    (void)state;
+    wo_host *host = open_host(1, 0);
+    reset_clips(1);
+    wo_host_instance *instance = create(host, "Filter", 1);
+    published p = {0};
+    wo_host_render_args args = WO_HOST_RENDER_INIT;
+    wo_image got = {.data = NULL};
+    args.report_user = &p;
+    args.publish = keep;
+    args.report = WO_HOST_REPORT_RENDER;
+    connect_clip(instance, PROBE_SOURCE);
+    assert_int_equal(wo_host_param_set_text(instance, "note", "a: b", NULL), WO_OK);
+    assert_int_equal(wo_host_render(instance, &args, &got, NULL, NULL), WO_OK);
+    wo_host_image_free(&got);
+    assert_int_equal(p.warnings, 0);
+    assert_int_equal(wo_host_param_set_text(instance, "trouble", "warn", NULL), WO_OK);
+    assert_int_equal(wo_host_render(instance, &args, &got, NULL, NULL), WO_OK);
+    wo_host_image_free(&got);
+    assert_string_equal(p.said, "probe-note: the note is a: b\nprobe-rows: some rows are odd\n");
+    assert_non_null(strstr(p.text, "\"warnings\": [{\"key\": \"probe-note\", "));
+    p = (published){0};
+    args.report = WO_HOST_REPORT_EXPLAIN;
+    assert_int_equal(wo_host_render(instance, &args, &got, NULL, NULL), WO_OK);
+    wo_host_image_free(&got);
+    assert_int_equal(p.plans, 1);
+    assert_string_equal(p.said, "probe-note: the note is a: b\n");
+    assert_string_equal(wo_host_persistent_message(instance), "");
+
+    args.report = WO_HOST_REPORT_NONE;
+    assert_int_equal(wo_host_render(instance, &args, &got, NULL, NULL), WO_OK);
+    wo_host_image_free(&got);
+    assert_string_equal(wo_host_persistent_message(instance),
+                        "the note is a: b\nsome rows are odd");
     wo_host_instance_destroy(&instance);
     close_host(&host);
 }
@@ -417,7 +462,7 @@ static void metadata_is_that_of_the_frame(void **state)
     wo_host *host = open_host(1, 0);
     reset_clips(1);
     wo_host_instance *instance = create(host, "General", 1);
-    published p = {0, 0, ""};
+    published p = {0};
     for (int i = 0; i < 3; i++) {
         wo_host_source source = source_of(&clips[i]);
         source.metadata = metadata;
@@ -563,6 +608,7 @@ int main(void)
         cmocka_unit_test(an_abort_ends_the_render_early),
         cmocka_unit_test(errors_are_shown_and_go_away),
         cmocka_unit_test(plans_and_reports_are_published),
+        cmocka_unit_test(warnings_are_published),
         cmocka_unit_test(metadata_is_that_of_the_frame),
         cmocka_unit_test(two_instances_work_side_by_side),
         cmocka_unit_test(tiles_of_one_instance_may_overlap),

@@ -192,7 +192,7 @@ static void parameters_are_those_of_the_table(void **state)
             fail_msg("%s of %s is not set", rows[i].property, rows[i].param);
         assert_string_equal(value, rows[i].value);
     }
-    assert_null(mock_param_text(effect, "trouble", kOfxParamPropChoiceOption, 4));
+    assert_null(mock_param_text(effect, "trouble", kOfxParamPropChoiceOption, 5));
     mock_destroy(probe, effect);
 }
 
@@ -384,6 +384,62 @@ static void a_message_pops_up_only_once(void **state)
     mock_destroy(probe, effect);
 }
 
+/* Beside the node, told again only when the text changes, and gone with the whole picture that
+   gives no cause; an error takes its place and gives it back. */
+static void a_warning_stays_while_there_is_cause(void **state)
+{
+    (void)state;
+    pictures();
+    reload(MOCK_NO_REPORT);
+    const OfxImageEffectHandle effect = create(kOfxImageEffectContextFilter);
+    mock_set_number(effect, "trouble", PROBE_TROUBLE_WARN, 0, 0);
+    mock_set_text(effect, "note", "100%s");
+    for (int tile = 0; tile < 4; tile++)
+        render(effect, (wo_rect){tile * 3, 0, tile * 3 + 3, 7}, kOfxStatOK);
+    assert_true(mock.persistent_set);
+    assert_int_equal(mock.persistent, 1);
+    assert_int_equal(mock.messages, 0);
+    assert_string_equal(mock.message, "the note is 100%s\nsome rows are odd");
+    mock_set_text(effect, "note", "new");
+    render(effect, full, kOfxStatOK);
+    assert_int_equal(mock.persistent, 2);
+    assert_string_equal(mock.message, "the note is new\nsome rows are odd");
+
+    mock_set_number(effect, "trouble", PROBE_TROUBLE_FAIL, 0, 0);
+    render(effect, full, kOfxStatFailed);
+    assert_string_equal(mock.message, "trouble was asked for: new");
+    mock_set_number(effect, "trouble", PROBE_TROUBLE_WARN, 0, 0);
+    render(effect, full, kOfxStatOK);
+    assert_string_equal(mock.message, "the note is new\nsome rows are odd");
+    assert_true(mock.persistent_set);
+
+    mock_set_number(effect, "trouble", PROBE_TROUBLE_NONE, 0, 0);
+    render(effect, (wo_rect){0, 0, 3, 7}, kOfxStatOK);
+    assert_true(mock.persistent_set); /* a part of the picture clears nobody */
+    render(effect, full, kOfxStatOK);
+    assert_false(mock.persistent_set);
+    mock_destroy(probe, effect);
+}
+
+static void a_warning_pops_up_once_for_each_kind(void **state)
+{
+    (void)state;
+    pictures();
+    reload(MOCK_NO_MESSAGE2);
+    const OfxImageEffectHandle effect = create(kOfxImageEffectContextFilter);
+    for (int round = 0; round < 3; round++) {
+        mock_set_text(effect, "note", round ? "other" : "one");
+        mock_set_number(effect, "trouble", PROBE_TROUBLE_WARN, 0, 0);
+        render(effect, full, kOfxStatOK);
+        render(effect, full, kOfxStatOK);
+        mock_set_number(effect, "trouble", PROBE_TROUBLE_NONE, 0, 0);
+        render(effect, full, kOfxStatOK);
+    }
+    assert_int_equal(mock.messages, 1);
+    assert_string_equal(mock.message, "the note is one\nsome rows are odd");
+    mock_destroy(probe, effect);
+}
+
 static void an_abort_stops_the_render(void **state)
 {
     (void)state;
@@ -522,6 +578,8 @@ int main(void)
         TEST(every_allocation_may_fail),
         TEST(a_message_stays_until_the_next_success),
         TEST(a_message_pops_up_only_once),
+        TEST(a_warning_stays_while_there_is_cause),
+        TEST(a_warning_pops_up_once_for_each_kind),
         TEST(an_abort_stops_the_render),
         TEST(the_progress_bar_rises_and_can_cancel),
         TEST(reports_are_published_when_asked_for),

@@ -251,6 +251,45 @@ static void parts_make_a_total(void **state)
     assert_int_equal(total.pixels, 400);
 }
 
+static void warnings_are_said_once(void **state)
+{
+    (void)state;
+    char longest[2 * WO_WARNING_SIZE];
+    wo_report r = {.pixels = 0};
+    memset(longest, 'x', sizeof longest - 1);
+    longest[sizeof longest - 1] = '\0';
+    wo_report_warn(&r, "depth-negative", "%d %% of the \"depth\" is negative", 93);
+    wo_report_warn(&r, "depth-negative", "%d %% of the depth is negative", 5);
+    wo_report_warn(&r, "longest", "%s", longest);
+    assert_int_equal(r.warning_count, 2);
+    assert_string_equal(r.warnings[0].text, "93 % of the \"depth\" is negative");
+    assert_int_equal(strlen(r.warnings[1].text), WO_WARNING_SIZE - 1);
+    char *text = json(&r);
+    assert_true(is_json(text));
+    assert_non_null(strstr(text, "\"warnings\": [{\"key\": \"depth-negative\", \"text\": "
+                                 "\"93 % of the \\\"depth\\\" is negative\"}, {\"key\": "
+                                 "\"longest\", "));
+    free(text);
+
+    wo_report total = {.pixels = 0};
+    wo_report_warn(&total, "longest", "short %s", "%s");
+    wo_report_add(&total, &r);
+    wo_report_add(&total, &r);
+    assert_int_equal(total.warning_count, 2);
+    assert_string_equal(total.warnings[0].text, "short %s");
+    assert_string_equal(total.warnings[1].text, r.warnings[0].text);
+
+    static const char *const keys[] = {"a", "b", "c", "d", "e", "f", "g", "h", "i", "j"};
+    _Static_assert(WO_COUNT(keys) > WO_WARNINGS_MAX, "more keys than rows");
+    for (size_t i = 0; i < WO_COUNT(keys); i++)
+        wo_report_warn(&total, keys[i], "%s", keys[i]);
+    assert_int_equal(total.warning_count, WO_WARNINGS_MAX);
+    wo_report_warn(NULL, "a", "a");
+    text = json(&(wo_report){.pixels = 0});
+    assert_non_null(strstr(text, "\"warnings\": []"));
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -261,6 +300,7 @@ int main(void)
         cmocka_unit_test(short_buffers_hold_an_empty_object),
         cmocka_unit_test(omissions_add_up_and_stop_at_the_limit),
         cmocka_unit_test(parts_make_a_total),
+        cmocka_unit_test(warnings_are_said_once),
     };
     return cmocka_run_group_tests_name("report", tests, NULL, NULL);
 }

@@ -17,11 +17,12 @@ struct wo_plan {
     wo_alpha alpha[PROBE_CLIPS];
     int32_t rx, ry;
     unsigned workers;
+    wo_report report;
     atomic_bool *busy; /* [workers]: no two calls may be the same worker at once */
 };
 
-static const char *const troubles[] = {"none", "fail", "slow", "wait", NULL};
-static const char *const trouble_labels[] = {"No trouble", "Fail", "Be slow", "Wait", NULL};
+static const char *const troubles[] = {"none", "fail", "slow", "wait", "warn", NULL};
+static const char *const trouble_labels[] = {"No trouble", "Fail", "Be slow", "Wait", "Warn", NULL};
 
 static const wo_param params[] = {
     {.key = "radius",
@@ -82,9 +83,9 @@ static const wo_param params[] = {
      .type = WO_PARAM_CHOICE,
      .offset = offsetof(probe_params, trouble),
      .min = 0,
-     .max = 3,
+     .max = 4,
      .ui_min = 0,
-     .ui_max = 3,
+     .ui_max = 4,
      .choices = troubles,
      .choice_labels = trouble_labels},
     {.key = "centre",
@@ -214,8 +215,15 @@ static wo_status plan_create(const wo_context *context, const void *p, const wo_
         plan_destroy(&plan);
         return WO_ERR_NOMEM;
     }
+    if (plan->params.trouble == PROBE_TROUBLE_WARN)
+        wo_report_warn(&plan->report, "probe-note", "the note is %s", plan->params.note);
     *place = plan;
     return WO_OK;
+}
+
+static const wo_report *plan_report(const wo_plan *plan)
+{
+    return &plan->report;
 }
 
 static int plan_print(const wo_plan *plan, char *buffer, size_t size)
@@ -356,6 +364,9 @@ static wo_status render(const wo_plan *plan, wo_rect window, const wo_image *out
     if (atomic_load(&w.aborted))
         return WO_ABORTED;
     if (report) {
+        wo_report_add(report, &plan->report);
+        if (plan->params.trouble == PROBE_TROUBLE_WARN)
+            wo_report_warn(report, "probe-rows", "some rows are %s", "odd");
         report->pixels += (int64_t)wo_rect_width(window) * wo_rect_height(window);
         wo_report_leave_out(report, "lens", "this is a box", 1, "lenses");
     }
@@ -377,6 +388,7 @@ const wo_effect probe_effect = {
     .identity = identity,
     .plan_create = plan_create,
     .plan_print = plan_print,
+    .plan_report = plan_report,
     .render = render,
     .plan_destroy = plan_destroy,
 };

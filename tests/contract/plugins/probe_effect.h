@@ -12,7 +12,8 @@ typedef enum probe_trouble {
     PROBE_TROUBLE_NONE,
     PROBE_TROUBLE_FAIL, /* render fails with a text */
     PROBE_TROUBLE_SLOW, /* every row takes a millisecond */
-    PROBE_TROUBLE_WAIT  /* render goes on until it is aborted */
+    PROBE_TROUBLE_WAIT, /* render goes on until it is aborted */
+    PROBE_TROUBLE_WARN  /* the plan warns of the note, the render of rows */
 } probe_trouble;
 
 typedef struct probe_params {
