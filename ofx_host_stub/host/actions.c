@@ -207,6 +207,7 @@ wo_status wo_act_on(wo_host_instance *instance, wo_frame *frame, wo_props *in, w
 void wo_mark_changed(wo_host_instance *instance, const char *param)
 {
     instance->colourspace_stale = true;
+    instance->has_region = false;
     if (wo_props_has_text(&instance->object.entry->descriptor->props,
                           kOfxImageEffectPropClipPreferencesSlaveParam, param))
         instance->preferences_stale = true;
@@ -250,16 +251,27 @@ static wo_status tell(wo_host_instance *instance, const char *type, const char *
 /* A plugin that answers changes with changes is told of those, too, but not without end. */
 #define ROUNDS_MAX 4
 
+/* The earliest change up to a number that the plugin has not been told of; NULL when there is none.
+ */
+static wo_par *next_change(const wo_host_instance *instance, unsigned last)
+{
+    wo_par *next = NULL;
+    for (size_t i = 0; i < instance->object.param_count; i++) {
+        wo_par *par = instance->object.params[i];
+        if (par->plugin_changed && par->change <= last && (!next || par->change < next->change))
+            next = par;
+    }
+    return next;
+}
+
 static wo_status tell_own_changes(wo_host_instance *instance, wo_error *error)
 {
     for (int round = 0; round < ROUNDS_MAX && instance->any_plugin_changed; round++) {
         instance->any_plugin_changed = false;
         WO_TRY(bracket(instance, WO_ACTION_BEGIN_CHANGED, kOfxChangePluginEdited, error));
+        const unsigned last = instance->changes;
         wo_status status = WO_OK;
-        for (size_t i = 0; i < instance->object.param_count && status == WO_OK; i++) {
-            wo_par *par = instance->object.params[i];
-            if (!par->plugin_changed)
-                continue;
+        for (wo_par *par; status == WO_OK && (par = next_change(instance, last));) {
             par->plugin_changed = false;
             status = tell(instance, kOfxTypeParameter, par->name, kOfxChangePluginEdited, error);
         }

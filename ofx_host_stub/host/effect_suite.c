@@ -154,13 +154,14 @@ static OfxStatus clip_get_region(OfxImageClipHandle clip, OfxTime time, OfxRectD
         return kOfxStatErrBadHandle;
     }
     const wo_frame *frame = wo_frame_now();
-    if (port->output && frame && frame->tile) {
+    wo_host_instance *const instance = (wo_host_instance *)port->owner;
+    if (port->output && frame && frame->tile)
         region = frame->tile->canonical;
-    } else if (port->output || !port->connected) {
+    else if (port->output && instance->has_region && instance->region_time == time)
+        region = instance->region;
+    else if ((port->output ? wo_default_region(instance, time, &region, NULL)
+                           : wo_port_region(port, time, &region, NULL)) != WO_OK)
         return kOfxStatFailed;
-    } else if (wo_port_region(port, time, &region, NULL) != WO_OK) {
-        return kOfxStatFailed;
-    }
     *bounds = (OfxRectD){region.x1 <= -WO_INFINITE ? kOfxFlagInfiniteMin : region.x1,
                          region.y1 <= -WO_INFINITE ? kOfxFlagInfiniteMin : region.y1,
                          region.x2 >= WO_INFINITE ? kOfxFlagInfiniteMax : region.x2,

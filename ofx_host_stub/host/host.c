@@ -71,8 +71,10 @@ void wo_note(wo_host *host, const char *format, ...)
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
+    pthread_mutex_lock(&host->lock);
     (void)wo_texts_add(&host->notes,
                        text); /* a note that is lost for lack of memory harms nobody */
+    pthread_mutex_unlock(&host->lock);
 }
 
 static void violate(wo_host *host, const wo_frame *frame, const char *format, va_list args)
@@ -215,6 +217,7 @@ void wo_host_destroy(wo_host **place)
     wo_process_leave(host);
     wo_texts_clear(&host->violations);
     wo_texts_clear(&host->notes);
+    wo_texts_clear(&host->extensions);
     pthread_mutex_destroy(&host->lock);
     free(host);
     *place = NULL;

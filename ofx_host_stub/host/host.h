@@ -95,7 +95,8 @@ void wo_host_unload(wo_host *host);
    minor version is higher. */
 WO_NODISCARD wo_status wo_host_scan(wo_host *host, const char *directory, wo_error *error);
 
-/* What scanning and loading left out, and why: one sentence each. */
+/* What scanning and loading left out, and why, and extensions of OpenFX that plugins set and this
+   host does not have: one sentence each. */
 size_t wo_host_note_count(const wo_host *host);
 const char *wo_host_note(const wo_host *host, size_t index);
 

@@ -132,8 +132,10 @@ wo_status wo_host_instance_create(wo_host *host, const wo_host_plugin *plugin, c
     instance->clip_preferences = calloc(info->clip_count, sizeof *instance->clip_preferences);
     bool ok = wo_object_init(&instance->object, host, entry, info->name, true);
     ok = ok && wo_object_copy(&instance->object, described, &checked) && instance->clip_preferences;
-    if (ok)
+    if (ok) {
         describe_project(instance);
+        ok = wo_clips_describe(instance);
+    }
     if (!ok || instance->object.props.failed) {
         wo_host_instance_destroy(&instance);
         return wo_fail(error, WO_ERR_NOMEM, "no memory for an instance of %.80s",
@@ -216,101 +218,4 @@ wo_status wo_host_purge(wo_host_instance *instance, wo_error *error)
 wo_status wo_host_sync(wo_host_instance *instance, wo_error *error)
 {
     return plain_action(instance, WO_ACTION_SYNC, error);
-}
-
-/* ---------------------------------------------------------------------------------------- clips */
-
-static wo_status check_source(const wo_port *port, const wo_host_source *source, wo_error *error)
-{
-    if (!source->region || !source->pixels)
-        return wo_fail(error, WO_ERR_ARGUMENT, "the source of %.60s lacks a function", port->name);
-    if (source->components != 1 && source->components != 3 && source->components != 4)
-        return wo_fail(error, WO_ERR_ARGUMENT,
-                       "the source of %.60s has %d components; 1, 3 or 4 "
-                       "are legal",
-                       port->name, source->components);
-    if ((unsigned)source->alpha > WO_HOST_UNPREMULTIPLIED || !(source->pixel_aspect > 0) ||
-        !isfinite(source->pixel_aspect) || !(source->frame_rate > 0))
-        return wo_fail(error, WO_ERR_RANGE,
-                       "the source of %.60s has alpha %d, pixel aspect %g, frame rate %g",
-                       port->name, (int)source->alpha, source->pixel_aspect, source->frame_rate);
-    return WO_OK;
-}
-
-int32_t wo_port_components(const wo_port *port)
-{
-    const int32_t components = port->connected ? port->source.components : 0;
-    static const int32_t order[][3] = {{1, 3, 4}, {3, 4, 1}, {4, 3, 1}};
-    const int32_t *best = components == 1 ? order[0] : components == 3 ? order[1] : order[2];
-    for (int i = 0; components > 0 && i < 3; i++)
-        if (wo_props_has_text(&port->props, kOfxImageEffectPropSupportedComponents,
-                              wo_components_text(best[i])))
-            return best[i];
-    return components;
-}
-
-static void describe_source(wo_port *port)
-{
-    static const char *const alphas[] = {kOfxImageOpaque, kOfxImagePreMultiplied,
-                                         kOfxImageUnPreMultiplied};
-    const wo_host_source *s = &port->source;
-    wo_props *props = &port->props;
-    port->components = wo_port_components(port);
-    wo_props_set_int(props, kOfxImageClipPropConnected, 0, port->connected);
-    wo_props_set_text(props, kOfxImageEffectPropPixelDepth, 0,
-                      port->connected ? kOfxBitDepthFloat : kOfxBitDepthNone);
-    wo_props_set_text(props, kOfxImageClipPropUnmappedPixelDepth, 0,
-                      port->connected ? kOfxBitDepthFloat : kOfxBitDepthNone);
-    wo_props_set_text(props, kOfxImageEffectPropComponents, 0,
-                      wo_components_text(port->components));
-    wo_props_set_text(props, kOfxImageClipPropUnmappedComponents, 0,
-                      wo_components_text(port->connected ? s->components : 0));
-    if (!port->connected)
-        return;
-    wo_props_set_text(props, kOfxImageEffectPropPreMultiplication, 0,
-                      s->components == 3 ? kOfxImageOpaque : alphas[s->alpha]);
-    wo_props_set_double(props, kOfxImagePropPixelAspectRatio, 0, s->pixel_aspect);
-    wo_props_set_double(props, kOfxImageEffectPropFrameRate, 0, s->frame_rate);
-    wo_props_set_double(props, kOfxImageEffectPropUnmappedFrameRate, 0, s->frame_rate);
-    wo_props_set_double(props, kOfxImageEffectPropFrameRange, 0, s->first_frame);
-    wo_props_set_double(props, kOfxImageEffectPropFrameRange, 1, s->last_frame);
-    wo_props_set_double(props, kOfxImageEffectPropUnmappedFrameRange, 0, s->first_frame);
-    wo_props_set_double(props, kOfxImageEffectPropUnmappedFrameRange, 1, s->last_frame);
-    wo_props_set_int(props, kOfxImageClipPropContinuousSamples, 0, s->continuous);
-}
-
-wo_status wo_host_set_clip(wo_host_instance *instance, const char *clip,
-                           const wo_host_source *source, wo_error *error)
-{
-    wo_port *port = wo_object_port(&instance->object, clip);
-    if (!port || port->output)
-        return wo_fail(error, WO_ERR_NOT_FOUND, "%.60s has no input clip \"%.60s\"",
-                       instance->object.entry->info.identifier, clip);
-    if (source)
-        WO_TRY(check_source(port, source, error));
-    char *colourspace = NULL, *identity = NULL;
-    if (source && (!wo_text_set(&colourspace, source->colourspace) ||
-                   !wo_text_set(&identity, source->identity))) {
-        free(colourspace);
-        return wo_fail(error, WO_ERR_NOMEM, "no memory for clip %.60s", clip);
-    }
-    free(port->colourspace);
-    free(port->identity);
-    port->colourspace = colourspace;
-    port->identity = identity;
-    port->connected = source != NULL;
-    port->has_metadata = false;
-    port->source = source ? *source : (wo_host_source){0};
-    port->source.colourspace = colourspace;
-    port->source.identity = identity;
-    describe_source(port);
-    instance->preferences_stale = instance->colourspace_stale = true;
-    if (port->props.failed) {
-        port->props.failed = false;
-        port->connected = false;
-        return wo_fail(error, WO_ERR_NOMEM, "no memory for clip %.60s", clip);
-    }
-    if (!instance->notify)
-        return WO_OK;
-    return wo_tell_changed(instance, kOfxTypeClip, clip, kOfxChangeUserEdited, error);
 }

@@ -21,7 +21,9 @@
      binary.c    files that would bring dlopen down
      describe.c  descriptors -> plain structs              object.c   effects, clips, parameters
      props.c     property sets, prop_suite.c their suite   schema.c   which object has which
+     extensions.c properties of makers of hosts
      actions.c   the one way into a plugin                 instance.c life of an instance
+     clips.c     clips of an instance and their sources
      effect_suite.c images.c memory.c                      what plugins call for pixels
      param_suite.c values.c param_text.c                   what plugins and callers call for values
      threads.c messages.c                                  the other suites
@@ -85,7 +87,7 @@ typedef struct wo_prop {
 typedef enum wo_props_when {
     WO_PROPS_NEVER,
     WO_PROPS_DESCRIBE, /* descriptors */
-    WO_PROPS_INSTANCE, /* instances: where parameters may be set */
+    WO_PROPS_INSTANCE, /* instances: in all actions but those of a render */
     WO_PROPS_ACTION    /* outArgs: while the action runs */
 } wo_props_when;
 
@@ -137,6 +139,11 @@ void wo_schema_clip(wo_props *props, const char *name);
 void wo_schema_clip_instance(wo_props *props);
 void wo_schema_image(wo_props *props);
 bool wo_schema_param(wo_props *props, const char *type, const char *name);
+
+/* extensions.c: whether a property no object of the standard has is somebody's extension; one note
+   for each name that a plugin wants to write. */
+bool wo_is_extension(const char *name);
+void wo_note_extension(wo_host *host, const char *name);
 
 /* -------------------------------------------------------------------------------------- process */
 
@@ -240,9 +247,10 @@ typedef struct wo_texts { /* a growing list of strings */
 struct wo_host {
     wo_host_config config; /* without the directories */
     wo_pool *pool;
-    pthread_mutex_t lock; /* violations */
+    pthread_mutex_t lock; /* violations, notes, extensions */
     wo_texts violations;
     wo_texts notes;
+    wo_texts extensions; /* names of properties that have left a note */
     wo_entry **entries;
     size_t entry_count, entry_capacity;
     wo_host_instance *instances;
@@ -288,6 +296,7 @@ typedef struct wo_par { /* a parameter of a descriptor or an instance */
     wo_key *keys; /* by time */
     size_t key_count, key_capacity;
     bool plugin_changed; /* the plugin has set it and not been told yet */
+    unsigned change;     /* as the how manieth of the instance */
 } wo_par;
 
 typedef struct wo_port { /* a clip of a descriptor or an instance */
@@ -428,6 +437,9 @@ struct wo_host_instance {
     bool alive;  /* CreateInstance has succeeded */
     bool notify;
     bool preferences_stale, colourspace_stale;
+    bool has_region; /* the plugin has said where it has pixels at region_time */
+    double region_time;
+    wo_host_region region;
     wo_host_preferences preferences;
     wo_host_clip_preference *clip_preferences;
     pthread_mutex_t lock; /* what follows, up to the next comment */
@@ -437,6 +449,7 @@ struct wo_host_instance {
     char *progress; /* label while a progress is going on */
     int edits;      /* paramEditBegin not ended */
     bool any_plugin_changed;
+    unsigned changes;
     int64_t input_pixels;
     /* any thread */
     pthread_mutex_t publish_lock;
@@ -464,9 +477,16 @@ void wo_mark_changed(wo_host_instance *instance, const char *param);
 /* preferences.c: clip preferences and colourspaces, when they are stale */
 WO_NODISCARD wo_status wo_prepare(wo_host_instance *instance, wo_error *error);
 
-/* instance.c: components a clip gets unless the plugin wishes others: of those it takes, the ones
-   that suit its source best; 0 = not connected */
+/* clips.c. Components a clip gets unless the plugin wishes others: of those it takes, the ones that
+   suit its source best, or the first as long as it has none. */
 int32_t wo_port_components(const wo_port *port);
+wo_host_alpha wo_port_alpha(const wo_port *port); /* of the images a plugin gets of an input */
+void wo_port_say_components(wo_port *port);       /* those of port->components */
+/* Fills what all clips say of themselves and the defaults of the preferences; false when out of
+   memory. */
+WO_NODISCARD bool wo_clips_describe(wo_host_instance *instance);
+/* First and last frame of all connected clips, those of the project when there is none. */
+void wo_frames_of_inputs(const wo_host_instance *instance, double *first, double *last);
 
 /* prepare.c */
 typedef struct wo_clip_name {
@@ -480,6 +500,8 @@ wo_rect wo_region_pixels(wo_host_region region, double scale_x, double scale_y, 
 wo_host_region wo_pixels_region(wo_rect pixels, double scale_x, double scale_y, double aspect);
 bool wo_region_infinite(wo_host_region region);
 wo_host_region wo_project_region(const wo_host_instance *instance);
+WO_NODISCARD wo_status wo_default_region(wo_host_instance *instance, double time,
+                                         wo_host_region *region, wo_error *error);
 WO_NODISCARD wo_status wo_port_region(wo_port *port, double time, wo_host_region *region,
                                       wo_error *error);
 WO_NODISCARD wo_status wo_ask_identity(wo_host_instance *instance, double time,

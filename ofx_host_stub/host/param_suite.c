@@ -263,6 +263,8 @@ static void note_change(wo_par *par)
     wo_mark_changed(instance, par->name);
     if (wo_frame_now()->action == WO_ACTION_CREATE)
         return;
+    if (!par->plugin_changed)
+        par->change = ++instance->changes;
     par->plugin_changed = true;
     instance->any_plugin_changed = true;
 }

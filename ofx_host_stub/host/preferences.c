@@ -26,44 +26,6 @@ static wo_status check_connected(const wo_host_instance *instance, wo_error *err
     return WO_OK;
 }
 
-static int32_t default_output_components(const wo_host_instance *instance, const wo_port *output)
-{
-    int32_t components = 4;
-    const wo_port *source = wo_object_port(&instance->object, kOfxImageEffectSimpleSourceClipName);
-    bool any = false, rgba = false;
-    for (size_t i = 0; i < instance->object.port_count; i++) {
-        const wo_port *port = instance->object.ports[i];
-        any = any || port->connected;
-        rgba = rgba || (port->connected && port->components == 4);
-    }
-    if (strcmp(instance->context->short_name, "Filter") == 0 && source && source->connected)
-        components = source->components;
-    else if (strcmp(instance->context->short_name, "General") == 0)
-        components = rgba || !any ? 4 : 1;
-    if (!wo_props_has_text(&output->props, kOfxImageEffectPropSupportedComponents,
-                           wo_components_text(components)))
-        for (int32_t c = 4; c >= 1; c--)
-            if (wo_props_has_text(&output->props, kOfxImageEffectPropSupportedComponents,
-                                  wo_components_text(c)))
-                return c;
-    return components;
-}
-
-static wo_host_alpha default_alpha(const wo_host_instance *instance)
-{
-    wo_host_alpha alpha = WO_HOST_OPAQUE;
-    for (size_t i = 0; i < instance->object.port_count; i++) {
-        const wo_port *port = instance->object.ports[i];
-        if (!port->connected || port->components != 4)
-            continue;
-        if (port->source.alpha == WO_HOST_PREMULTIPLIED)
-            return WO_HOST_PREMULTIPLIED;
-        if (port->source.alpha == WO_HOST_UNPREMULTIPLIED)
-            alpha = WO_HOST_UNPREMULTIPLIED;
-    }
-    return alpha;
-}
-
 static void offer_clip(wo_props *out, const wo_port *port)
 {
     const wo_clip_name components = wo_with_clip("OfxImageClipPropComponents_", port);
@@ -92,11 +54,15 @@ static wo_status take_clip(wo_host_instance *instance, const wo_props *out, wo_p
     const wo_clip_name wishes = wo_with_clip("OfxImageClipPropPreferredColourspaces_", port);
     const char *text = wo_props_text(out, components.text, 0, "");
     const int32_t count = wo_components_of(text);
-    if (count != port->components && (port->connected || port->output)) {
+    const bool supported =
+        count > 0 && wo_props_has_text(&port->props, kOfxImageEffectPropSupportedComponents, text);
+    if (count != port->components && !port->connected && !port->output) {
+        if (supported && !is_mandated(instance, port))
+            port->components = count;
+    } else if (count != port->components) {
         if (is_mandated(instance, port))
             wo_violate(host, "the components of \"%.80s\" cannot be changed in this context", name);
-        else if (count == 0 ||
-                 !wo_props_has_text(&port->props, kOfxImageEffectPropSupportedComponents, text))
+        else if (!supported)
             wo_violate(host, "\"%.80s\" does not support %.80s", name, text);
         else
             port->components = count;
@@ -106,8 +72,7 @@ static wo_status take_clip(wo_host_instance *instance, const wo_props *out, wo_p
     if (wo_props_double(out, aspect.text, 0, 1) !=
         wo_props_double(&port->props, kOfxImagePropPixelAspectRatio, 0, 1))
         wo_violate(host, "the pixel aspect of \"%.80s\" cannot be changed in this host", name);
-    wo_props_set_text(&port->props, kOfxImageEffectPropComponents, 0,
-                      wo_components_text(port->components));
+    wo_port_say_components(port);
     wo_texts_clear(&port->wishes);
     wo_prop *listed = wo_props_find(&port->props, kOfxImageClipPropPreferredColourspaces);
     bool ok = wo_prop_resize(listed, 0);
@@ -159,27 +124,11 @@ static wo_status ask_preferences(wo_host_instance *instance, wo_error *error)
 {
     wo_object *object = &instance->object;
     wo_port *output = wo_object_port(object, kOfxImageEffectOutputClipName);
-    wo_port *source = wo_object_port(object, kOfxImageEffectSimpleSourceClipName);
     wo_host_preferences *p = &instance->preferences;
     wo_props in, out;
+    if (!wo_clips_describe(instance))
+        return wo_fail(error, WO_ERR_NOMEM, "no memory for clip preferences");
     wo_arguments(&in, &out, instance, instance->time, NULL);
-    for (size_t i = 0; i < object->port_count; i++)
-        if (!object->ports[i]->output)
-            object->ports[i]->components = wo_port_components(object->ports[i]);
-    output->components = default_output_components(instance, output);
-    const double aspect =
-        source && source->connected ? source->source.pixel_aspect : instance->project.pixel_aspect;
-    p->alpha = default_alpha(instance);
-    p->frame_rate =
-        source && source->connected ? source->source.frame_rate : instance->project.frame_rate;
-    wo_props_set_text(&output->props, kOfxImageEffectPropPixelDepth, 0, kOfxBitDepthFloat);
-    wo_props_set_double(&output->props, kOfxImagePropPixelAspectRatio, 0, aspect);
-    wo_props_set_double(&output->props, kOfxImageEffectPropFrameRate, 0, p->frame_rate);
-    wo_props_set_double(&output->props, kOfxImageEffectPropFrameRange, 0,
-                        instance->project.first_frame);
-    wo_props_set_double(&output->props, kOfxImageEffectPropFrameRange, 1,
-                        instance->project.last_frame);
-    wo_props_set_int(&output->props, kOfxImageClipPropConnected, 0, 1);
     for (size_t i = 0; i < object->port_count; i++)
         offer_clip(&out, object->ports[i]);
     wo_props_add_one(&out, kOfxImageEffectPropFrameRate, WO_PROP_DOUBLE, 1, true);

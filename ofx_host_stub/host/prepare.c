@@ -161,8 +161,8 @@ static wo_status prepare_at(wo_host_instance *instance, double time, wo_error *e
 
 /* --------------------------------------------------------------- region, needed, frames, domain */
 
-static wo_status default_region(wo_host_instance *instance, double time, wo_host_region *region,
-                                wo_error *error)
+wo_status wo_default_region(wo_host_instance *instance, double time, wo_host_region *region,
+                            wo_error *error)
 {
     const bool filter = strcmp(instance->context->short_name, "Filter") == 0;
     wo_host_region all = {0}, one;
@@ -209,7 +209,7 @@ wo_status wo_host_get_region(wo_host_instance *instance, double time, double sca
         *pixels = (wo_rect){0, 0, 0, 0};
     WO_TRY(check_scale(scale_x, scale_y, time, error));
     WO_TRY(prepare_at(instance, time, error));
-    WO_TRY(default_region(instance, time, &usual, error));
+    WO_TRY(wo_default_region(instance, time, &usual, error));
     wo_arguments(&in, &out, instance, time, scale);
     wo_props_add_one(&out, kOfxImageEffectPropRegionOfDefinition, WO_PROP_DOUBLE, 4, true);
     set_region(&out, kOfxImageEffectPropRegionOfDefinition, usual);
@@ -224,6 +224,9 @@ wo_status wo_host_get_region(wo_host_instance *instance, double time, double sca
                       region->y2);
         *region = usual;
     }
+    instance->has_region = true;
+    instance->region = *region;
+    instance->region_time = time;
     if (pixels) {
         const wo_port *output = wo_object_port(&instance->object, kOfxImageEffectOutputClipName);
         *pixels = wo_region_pixels(
@@ -301,8 +304,23 @@ wo_status wo_host_get_frames_needed(wo_host_instance *instance, double time, dou
     for (size_t i = 0; status == WO_OK && i < count; i++) {
         const wo_clip_name name =
             wo_with_clip("OfxImageClipPropFrameRange_", instance->object.ports[i]);
-        ranges[i][0] = wo_props_double(&out, name.text, 0, time);
-        ranges[i][1] = wo_props_double(&out, name.text, 1, time);
+        const int numbers = wo_props_count(&out, name.text);
+        if (instance->object.ports[i]->output)
+            continue;
+        if (numbers % 2 != 0)
+            wo_violate_in(&frame, "the frames needed of \"%.80s\" are %d numbers, not pairs",
+                          instance->object.ports[i]->name, numbers);
+        for (int k = 0; k + 1 < numbers; k += 2) {
+            const double first = wo_props_double(&out, name.text, k, time);
+            const double last = wo_props_double(&out, name.text, k + 1, time);
+            if (!(first <= last && isfinite(last - first)))
+                wo_violate_in(&frame, "the frames needed of \"%.80s\" are %g to %g",
+                              instance->object.ports[i]->name, first, last);
+            else if (k == 0) {
+                ranges[i][0] = first;
+                ranges[i][1] = last;
+            }
+        }
     }
     wo_props_clear(&in);
     wo_props_clear(&out);
@@ -313,18 +331,8 @@ wo_status wo_host_get_time_domain(wo_host_instance *instance, double *first, dou
                                   wo_error *error)
 {
     wo_props in, out;
-    bool any = false;
-    *first = instance->project.first_frame;
-    *last = instance->project.last_frame;
+    wo_frames_of_inputs(instance, first, last);
     WO_TRY(wo_prepare(instance, error));
-    for (size_t i = 0; i < instance->object.port_count; i++) {
-        const wo_port *port = instance->object.ports[i];
-        if (!port->connected)
-            continue;
-        *first = any ? fmin(*first, port->source.first_frame) : port->source.first_frame;
-        *last = any ? fmax(*last, port->source.last_frame) : port->source.last_frame;
-        any = true;
-    }
     if (strcmp(instance->context->short_name, "General") != 0)
         return WO_OK;
     wo_arguments(&in, &out, instance, instance->time, NULL);
@@ -333,13 +341,18 @@ wo_status wo_host_get_time_domain(wo_host_instance *instance, double *first, dou
     wo_props_set_double(&out, kOfxImageEffectPropFrameRange, 1, *last);
     wo_frame frame = {.action = WO_ACTION_TIME_DOMAIN, .time = instance->time, .scale = {1, 1}};
     const wo_status status = wo_act_on(instance, &frame, NULL, &out, NULL, error);
-    if (status == WO_OK) {
-        *first = wo_props_double(&out, kOfxImageEffectPropFrameRange, 0, *first);
-        *last = wo_props_double(&out, kOfxImageEffectPropFrameRange, 1, *last);
-    }
+    const double range[2] = {wo_props_double(&out, kOfxImageEffectPropFrameRange, 0, *first),
+                             wo_props_double(&out, kOfxImageEffectPropFrameRange, 1, *last)};
     wo_props_clear(&in);
     wo_props_clear(&out);
-    return status;
+    WO_TRY(status);
+    if (!(range[0] <= range[1])) { /* NaN fails */
+        wo_violate_in(&frame, "the time domain is %g to %g", range[0], range[1]);
+        return WO_OK;
+    }
+    *first = range[0];
+    *last = range[1];
+    return WO_OK;
 }
 
 wo_status wo_ask_identity(wo_host_instance *instance, double time, const double scale[2],

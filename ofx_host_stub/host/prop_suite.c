@@ -45,10 +45,23 @@ static OfxStatus enter(OfxPropertySetHandle handle, const char *name, const char
     return kOfxStatOK;
 }
 
-/* Names the standard owns; others belong to makers of hosts, and asking for them is no fault. */
-static bool is_standard(const char *name)
+/* Properties that a set does not have and a plugin wants to write: a fault when the name is one of
+   the standard's, a note when it belongs to makers of hosts. */
+static OfxStatus leave_unknown(const char *function, const char *name, const wo_props *props)
 {
-    return strncmp(name, "Ofx", 3) == 0 || strncmp(name, "kOfx", 4) == 0;
+    wo_host *const host = props->host;
+    if (!wo_is_extension(name))
+        return leave_with(function, name, props, kOfxStatErrUnknown, "there is no such property");
+    wo_process_unlock();
+    wo_note_extension(host, name);
+    return kOfxStatErrUnknown;
+}
+
+/* What happens while pixels are made must change nothing that a user sees. */
+static bool is_render(wo_action action)
+{
+    return action == WO_ACTION_BEGIN_RENDER || action == WO_ACTION_RENDER ||
+           action == WO_ACTION_END_RENDER;
 }
 
 static bool writable_now(const wo_props *props, const char *name)
@@ -62,8 +75,7 @@ static bool writable_now(const wo_props *props, const char *name)
                          frame->action == WO_ACTION_DESCRIBE_IN_CONTEXT);
     case WO_PROPS_INSTANCE:
         return strcmp(name, kOfxParamPropDataPtr) == 0 || strcmp(name, kOfxPropInstanceData) == 0 ||
-               (frame &&
-                (wo_action_sets_params(frame->action) || frame->action == WO_ACTION_DESTROY));
+               (frame && !is_render(frame->action));
     case WO_PROPS_ACTION:
         return frame != NULL;
     }
@@ -78,10 +90,8 @@ static OfxStatus enter_write(OfxPropertySetHandle handle, const char *name, wo_p
     if (status != kOfxStatOK)
         return status;
     *prop = wo_props_find(*props, name);
-    if (!*prop && is_standard(name))
-        return leave_with(function, name, *props, kOfxStatErrUnknown, "there is no such property");
     if (!*prop)
-        return leave(kOfxStatErrUnknown);
+        return leave_unknown(function, name, *props);
     if ((*prop)->type != type)
         return leave_with(function, name, *props, kOfxStatErrValue, type_faults[(*prop)->type]);
     if (!(*prop)->plugin_writes)
@@ -268,11 +278,8 @@ static OfxStatus reset(OfxPropertySetHandle set, const char *name)
     if (status != kOfxStatOK)
         return status;
     wo_prop *prop = wo_props_find(props, name);
-    if (!prop && is_standard(name))
-        return leave_with("propReset", name, props, kOfxStatErrUnknown,
-                          "there is no such property");
     if (!prop)
-        return leave(kOfxStatErrUnknown);
+        return leave_unknown("propReset", name, props);
     if (!prop->plugin_writes)
         return leave_with("propReset", name, props, kOfxStatErrValue, "it is read-only");
     if (!writable_now(props, name))

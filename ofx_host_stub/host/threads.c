@@ -248,8 +248,8 @@ static void mutex_leave(wo_mutex *mutex)
 static OfxStatus mutex_create(OfxMutexHandle *handle, int lock_count)
 {
     const wo_frame *frame = wo_frame_now();
-    if (!handle || lock_count < 0) {
-        wo_violate(NULL, "mutexCreate with %s", handle ? "a negative lock count" : "no place");
+    if (!handle) {
+        wo_violate(NULL, "mutexCreate: no place for the result");
         return kOfxStatErrValue;
     }
     *handle = NULL;
@@ -258,7 +258,7 @@ static OfxStatus mutex_create(OfxMutexHandle *handle, int lock_count)
         return kOfxStatErrMemory;
     pthread_mutex_init(&mutex->lock, NULL);
     pthread_cond_init(&mutex->freed, NULL);
-    mutex->depth = (unsigned)lock_count;
+    mutex->depth = lock_count > 0 ? (unsigned)lock_count : 0; /* below 0 is legal */
     mutex->owner = pthread_self();
     mutex->plugin = frame && frame->entry ? frame->entry->plugin : NULL;
     mutex->handle = wo_handle_add(WO_HANDLE_MUTEX, mutex);

@@ -22,6 +22,7 @@ function(wo_host_test_plugin target folder name source)
 endfunction()
 wo_host_test_plugin(host_plugin_good good Good good.c)
 wo_host_test_plugin(host_plugin_bad bad Bad bad.c)
+wo_host_test_plugin(host_plugin_legal legal Legal legal.c)
 wo_host_test_plugin(host_plugin_odd odd Odd odd.c)
 wo_host_test_plugin(host_plugin_shy shy Shy shy.c)
 wo_host_test_plugin(host_plugin_half shy Half shy.c)
@@ -33,10 +34,10 @@ target_compile_definitions(wo_host_fixture PUBLIC
     _XOPEN_SOURCE=700 WO_TEST_PLUGINS="${host_test_plugins}" WO_TEST_ARCH="${host_test_arch}")
 target_link_libraries(wo_host_fixture PUBLIC
     wo_host wo_base wo_options cmocka Threads::Threads ${CMAKE_DL_LIBS} m)
-add_dependencies(wo_host_fixture host_plugin_good host_plugin_bad host_plugin_odd host_plugin_shy
+add_dependencies(wo_host_fixture host_plugin_good host_plugin_bad host_plugin_legal host_plugin_odd host_plugin_shy
     host_plugin_half)
 
-foreach(name IN ITEMS describe scan values params render misdeeds threads memory)
+foreach(name IN ITEMS describe scan values params render misdeeds legal threads memory)
     add_executable(test_host_${name} ${host_test_dir}/test_host_${name}.c)
     target_include_directories(test_host_${name} PRIVATE ${host_test_dir}/../../include/ofx)
     target_link_libraries(test_host_${name} PRIVATE wo_host_fixture)

@@ -61,8 +61,6 @@ static const misdeed misdeeds[] = {
     {"write past memory", "bytes outside of a block of 10 bytes of memory were written"},
     {"write before image memory", "bytes outside of a block of 10 bytes of image memory were "
                                   "written"},
-    {"unlock too often", "imageMemoryUnlock of memory that is not locked"},
-    {"free of locked image memory", "imageMemoryFree of memory that is locked"},
     {"image memory freed twice", "imageMemoryFree: the image memory handle is freed already"},
     {"unlock of an unlocked mutex", "mutexUnLock of a mutex that this thread has not locked"},
     {"mutex destroyed twice", "mutexDestroy: the mutex handle is freed already"},
@@ -202,6 +200,34 @@ static void each_is_found(void **state)
     unsetenv("WO_TEST_MISDEED");
 }
 
+/* Frames that are no ranges; what would have been without an answer is taken. */
+static void times_are_ranges(void **state)
+{
+    static const misdeed rows[] = {
+        {"time domain upside down", "the time domain is 5 to 1"},
+        {"frames upside down", "the frames needed of \"Source\" are 7 to 2"},
+        {"frames not in pairs", "the frames needed of \"Source\" are 3 numbers, not pairs"},
+    };
+    (void)state;
+    for (size_t i = 0; i < WO_COUNT(rows); i++) {
+        assert_int_equal(setenv("WO_TEST_MISDEED", rows[i].name, 1), 0);
+        wo_host *host = fixture_host("bad", 1, true, 0);
+        wo_host_instance *instance = fixture_instance(host, "Bad", "General");
+        wo_host_still still = {.image = fixture_picture((wo_rect){0, 0, 40, 30}, 4, 1)};
+        double first = 0, last = 0, ranges[2][2];
+        fixture_connect(instance, "Source", &still);
+        ok(wo_host_get_time_domain(instance, &first, &last, &ok_error));
+        assert_true(first == 1 && last == 1);
+        ok(wo_host_get_frames_needed(instance, 2, ranges, 2, &ok_error));
+        assert_true(ranges[0][0] == 2 && ranges[0][1] == 2);
+        fixture_violation(host, rows[i].text);
+        assert_int_equal(wo_host_violation_count(host), 1);
+        wo_host_destroy(&host);
+        free(still.image.data);
+    }
+    unsetenv("WO_TEST_MISDEED");
+}
+
 /* The same life without a misdeed leaves none; nor does a host without strictness see what is not
  * there. */
 static void innocence_is_found_as_well(void **state)
@@ -255,6 +281,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(innocence_is_found_as_well),
         cmocka_unit_test(each_is_found),
+        cmocka_unit_test(times_are_ranges),
         cmocka_unit_test(fatal_is_final),
         cmocka_unit_test(violations_are_counted_once),
     };

@@ -33,6 +33,8 @@ static OfxStatus describe(OfxImageEffectHandle effect)
                             kOfxImageEffectContextFilter);
     ofx.prop->propSetString(p, kOfxImageEffectPropSupportedContexts, 1,
                             kOfxImageEffectContextGeneral);
+    if (misdeed("frames upside down") || misdeed("frames not in pairs"))
+        ofx.prop->propSetInt(p, kOfxImageEffectPropTemporalClipAccess, 0, 1);
     if (misdeed("unknown property set"))
         ofx.prop->propSetInt(p, "OfxImageEffectPropNoSuchThing", 0, 1);
     if (misdeed("wrong type"))
@@ -153,16 +155,6 @@ static OfxStatus changed(OfxImageEffectHandle effect)
         ofx.effect->imageMemoryLock(memory, &block);
         ((char *)block)[-1] = 1;
         ofx.effect->imageMemoryUnlock(memory);
-        ofx.effect->imageMemoryFree(memory);
-    }
-    if (misdeed("unlock too often")) {
-        ofx.effect->imageMemoryAlloc(effect, 10, &memory);
-        ofx.effect->imageMemoryUnlock(memory);
-        ofx.effect->imageMemoryFree(memory);
-    }
-    if (misdeed("free of locked image memory")) {
-        ofx.effect->imageMemoryAlloc(effect, 10, &memory);
-        ofx.effect->imageMemoryLock(memory, &block);
         ofx.effect->imageMemoryFree(memory);
     }
     if (misdeed("image memory freed twice")) {
@@ -405,6 +397,15 @@ static OfxStatus main_entry(const char *action, const void *handle, OfxPropertyS
     if (strcmp(action, kOfxImageEffectActionGetRegionsOfInterest) == 0 &&
         misdeed("interest of NaN"))
         return ofx.prop->propSetDouble(out, "OfxImageClipPropRoI_Source", 2, (double)NAN);
+    if (strcmp(action, kOfxImageEffectActionGetTimeDomain) == 0 &&
+        misdeed("time domain upside down")) {
+        ofx.prop->propSetDouble(out, kOfxImageEffectPropFrameRange, 0, 5);
+        return ofx.prop->propSetDouble(out, kOfxImageEffectPropFrameRange, 1, 1);
+    }
+    if (strcmp(action, kOfxImageEffectActionGetFramesNeeded) == 0 && misdeed("frames upside down"))
+        return ofx.prop->propSetDouble(out, "OfxImageClipPropFrameRange_Source", 0, 7);
+    if (strcmp(action, kOfxImageEffectActionGetFramesNeeded) == 0 && misdeed("frames not in pairs"))
+        return ofx.prop->propSetDouble(out, "OfxImageClipPropFrameRange_Source", 2, 7);
     if (strcmp(action, kOfxImageEffectActionIsIdentity) == 0 && misdeed("identity with nobody"))
         return ofx.prop->propSetString(out, kOfxPropName, 0, "Nobody");
     if (strcmp(action, kOfxImageEffectActionRender) == 0)
