@@ -373,9 +373,9 @@ struct wo_entry {        /* a plugin of one host */
     wo_host_plugin info; /* its texts point into what follows */
     wo_host *host;
     wo_module *module;
-    int index; /* in the module */
-    OfxPlugin *plugin;
-    char *bundle, *binary;
+    int index;         /* in the module */
+    OfxPlugin *plugin; /* while it is loaded */
+    char *identifier, *bundle, *binary;
     bool loaded;
     wo_object *descriptor;
     wo_object **contexts; /* described ones, parallel to context_infos */

@@ -8,9 +8,10 @@
 
 #define PLUGINS_MAX 1000 /* in one binary */
 
-/* One plugin of a binary, for all hosts. */
+/* One plugin of a binary, for all hosts. Many libraries free the struct in Unload and make another
+   one when they are asked again: the pointer is good from OfxGetPlugin to Unload. */
 typedef struct loaded {
-    OfxPlugin *plugin;
+    OfxPlugin *plugin;           /* NULL = to be fetched */
     unsigned loads;              /* hosts that want it loaded */
     pthread_mutex_t render_lock; /* for plugins that render only once at a time */
     bool has_lock;
@@ -22,6 +23,7 @@ struct wo_module {
     wo_module *next;
     char *path; /* real, absolute */
     void *library;
+    OfxPlugin *(*get)(int nth);
     unsigned users;
     int count;
     loaded *plugins;
@@ -100,11 +102,10 @@ static wo_module *module_map(char *path, const char **why)
         return NULL;
     }
     module->count = plugins;
-    for (int i = 0; i < plugins; i++) {
-        module->plugins[i].plugin = get.get(i);
+    module->get = get.get;
+    for (int i = 0; i < plugins; i++)
         module->plugins[i].has_lock =
             pthread_mutex_init(&module->plugins[i].render_lock, NULL) == 0;
-    }
     return module;
 }
 
@@ -142,6 +143,37 @@ static void module_close(wo_module *module)
     module_free(module);
 }
 
+/* Why plugin `index` of a binary is none for us, NULL when it is one. Fetches it if need be; the
+   lock is held. */
+static const char *unfit(wo_module *module, int index)
+{
+    loaded *it = &module->plugins[index];
+    if (!it->plugin)
+        it->plugin = module->get(index);
+    const OfxPlugin *plugin = it->plugin;
+    if (!plugin)
+        return "is NULL";
+    if (!it->has_lock)
+        return "has no lock";
+    if (!plugin->pluginApi || strcmp(plugin->pluginApi, kOfxImageEffectPluginApi) != 0)
+        return "is no image effect";
+    if (plugin->apiVersion != kOfxImageEffectPluginApiVersion)
+        return "is for another version of the API";
+    if (!plugin->pluginIdentifier || !*plugin->pluginIdentifier)
+        return "has no identifier";
+    if (!plugin->setHost || !plugin->mainEntry)
+        return "lacks a function";
+    return NULL;
+}
+
+/* Is what the binary gives now the plugin this entry was made for? */
+static bool same_plugin(const wo_entry *entry, const OfxPlugin *plugin)
+{
+    return strcmp(plugin->pluginIdentifier, entry->identifier) == 0 &&
+           plugin->pluginVersionMajor == entry->info.version_major &&
+           plugin->pluginVersionMinor == entry->info.version_minor;
+}
+
 OfxStatus wo_entry_load(wo_entry *entry)
 {
     OfxStatus status = kOfxStatOK;
@@ -149,7 +181,13 @@ OfxStatus wo_entry_load(wo_entry *entry)
     if (entry->loaded)
         return kOfxStatOK;
     pthread_mutex_lock(&modules.lock);
-    if (it->loads == 0) {
+    if (unfit(entry->module, entry->index) || !same_plugin(entry, it->plugin)) {
+        wo_note(entry->host, "%s: plugin %d is no longer %s", entry->bundle, entry->index,
+                entry->identifier);
+        status = kOfxStatFailed;
+    }
+    entry->plugin = it->plugin;
+    if (status == kOfxStatOK && it->loads == 0) {
         wo_frame frame = {.action = WO_ACTION_LOAD};
         it->plugin->setHost(wo_process_ofx_host());
         status = wo_act(entry, &frame, NULL, NULL);
@@ -177,6 +215,7 @@ void wo_entry_unload(wo_entry *entry)
         wo_memory_check_left(entry->plugin, NULL);
         wo_mutexes_check_left(entry->plugin);
         wo_frame_set(frame.outer);
+        it->plugin = NULL;
     }
     pthread_mutex_unlock(&modules.lock);
 }
@@ -196,29 +235,11 @@ void wo_entry_destroy(wo_entry **place)
     pthread_mutex_lock(&modules.lock);
     module_close(entry->module);
     pthread_mutex_unlock(&modules.lock);
+    free(entry->identifier);
     free(entry->bundle);
     free(entry->binary);
     free(entry);
     *place = NULL;
-}
-
-/* Why the struct a binary gave is no plugin for us; NULL when it is one. */
-static const char *unfit(const loaded *it)
-{
-    const OfxPlugin *plugin = it->plugin;
-    if (!plugin)
-        return "is NULL";
-    if (!it->has_lock)
-        return "has no lock";
-    if (!plugin->pluginApi || strcmp(plugin->pluginApi, kOfxImageEffectPluginApi) != 0)
-        return "is no image effect";
-    if (plugin->apiVersion != kOfxImageEffectPluginApiVersion)
-        return "is for another version of the API";
-    if (!plugin->pluginIdentifier || !*plugin->pluginIdentifier)
-        return "has no identifier";
-    if (!plugin->setHost || !plugin->mainEntry)
-        return "lacks a function";
-    return NULL;
 }
 
 static bool known(const wo_host *host, const OfxPlugin *plugin)
@@ -236,8 +257,10 @@ static bool known(const wo_host *host, const OfxPlugin *plugin)
 static void load_plugin(wo_host *host, wo_module *module, int index, const char *bundle,
                         const char *binary)
 {
+    pthread_mutex_lock(&modules.lock);
+    const char *why = unfit(module, index);
     const OfxPlugin *plugin = module->plugins[index].plugin;
-    const char *why = unfit(&module->plugins[index]);
+    pthread_mutex_unlock(&modules.lock);
     if (why) {
         wo_note(host, "%s: plugin %d %s", bundle, index, why);
         return;
@@ -259,17 +282,16 @@ static void load_plugin(wo_host *host, wo_module *module, int index, const char 
     entry->host = host;
     entry->module = module;
     entry->index = index;
-    entry->plugin = module->plugins[index].plugin;
     pthread_mutex_lock(&modules.lock);
     module->users++;
     pthread_mutex_unlock(&modules.lock);
-    entry->info.identifier = plugin->pluginIdentifier;
+    entry->info.identifier = entry->identifier = wo_text_copy(plugin->pluginIdentifier);
     entry->info.version_major = plugin->pluginVersionMajor;
     entry->info.version_minor = plugin->pluginVersionMinor;
     entry->info.internal = entry;
     entry->info.bundle = entry->bundle = wo_text_copy(bundle);
     entry->info.binary = entry->binary = wo_text_copy(binary);
-    if (!entry->bundle || !entry->binary) {
+    if (!entry->identifier || !entry->bundle || !entry->binary) {
         wo_note(host, "%s: out of memory", bundle);
         wo_entry_destroy(&entry);
         return;

@@ -19,6 +19,7 @@ function(wo_host_test_plugin target folder name source)
     set_target_properties(${target} PROPERTIES PREFIX "" SUFFIX ".ofx" OUTPUT_NAME ${name}
         LIBRARY_OUTPUT_DIRECTORY
         ${host_test_plugins}/${folder}/${name}.ofx.bundle/Contents/${host_test_arch})
+    set_property(GLOBAL APPEND PROPERTY wo_host_test_plugins ${target})
 endfunction()
 wo_host_test_plugin(host_plugin_good good Good good.c)
 wo_host_test_plugin(host_plugin_bad bad Bad bad.c)
@@ -27,6 +28,7 @@ wo_host_test_plugin(host_plugin_odd odd Odd odd.c)
 wo_host_test_plugin(host_plugin_shy shy Shy shy.c)
 wo_host_test_plugin(host_plugin_half shy Half shy.c)
 target_compile_definitions(host_plugin_half PRIVATE WO_TEST_LACKS_PLUGIN)
+wo_host_test_plugin(host_plugin_fresh fresh Fresh fresh.c)
 
 add_library(wo_host_fixture STATIC ${host_test_dir}/host_fixture.c)
 target_include_directories(wo_host_fixture PUBLIC ${host_test_dir})
@@ -34,8 +36,8 @@ target_compile_definitions(wo_host_fixture PUBLIC
     _XOPEN_SOURCE=700 WO_TEST_PLUGINS="${host_test_plugins}" WO_TEST_ARCH="${host_test_arch}")
 target_link_libraries(wo_host_fixture PUBLIC
     wo_host wo_base wo_options cmocka Threads::Threads ${CMAKE_DL_LIBS} m)
-add_dependencies(wo_host_fixture host_plugin_good host_plugin_bad host_plugin_legal host_plugin_odd host_plugin_shy
-    host_plugin_half)
+get_property(host_test_targets GLOBAL PROPERTY wo_host_test_plugins)
+add_dependencies(wo_host_fixture ${host_test_targets})
 
 foreach(name IN ITEMS describe scan values params render misdeeds legal threads memory)
     add_executable(test_host_${name} ${host_test_dir}/test_host_${name}.c)

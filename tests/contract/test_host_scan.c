@@ -254,6 +254,28 @@ static void scanning_again_adds_nothing(void **state)
     wo_host_destroy(&host);
 }
 
+/* Two lives of the struct in one host, and two hosts after each other and at once. */
+static void plugins_are_fetched_again_after_unload(void **state)
+{
+    (void)state;
+    for (int life = 0; life < 2; life++) {
+        wo_host *host = fixture_host("fresh", 1, true, 0);
+        wo_host *other = fixture_host("fresh", 1, true, 0);
+        assert_int_equal(wo_host_plugin_count(host), 1);
+        wo_host_instance *instance = fixture_instance(host, "Fresh", NULL);
+        wo_image image = fixture_render(instance, 1, 1, (wo_rect){0, 0, 8, 8}, 0, NULL);
+        assert_float_equal(wo_image_at(&image, 7, 7)[0], 0.5, 0);
+        wo_host_image_free(&image);
+        wo_host_destroy(&other);
+        wo_host_instance_destroy(&instance);
+        fixture_no_violations(host);
+        assert_string_equal(wo_host_plugin_at(host, 0)->identifier, "org.wideopen.test.Fresh");
+        wo_host_unload(host);
+        assert_string_equal(wo_host_plugin_at(host, 0)->identifier, "org.wideopen.test.Fresh");
+        wo_host_destroy(&host);
+    }
+}
+
 #define with_folder(test) cmocka_unit_test_setup_teardown(test, set_up, tear_down)
 
 int main(void)
@@ -266,6 +288,7 @@ int main(void)
         cmocka_unit_test(binaries_may_refuse),
         with_folder(search_path),
         with_folder(scanning_again_adds_nothing),
+        cmocka_unit_test(plugins_are_fetched_again_after_unload),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
