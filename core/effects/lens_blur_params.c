@@ -165,8 +165,9 @@ const wo_param wo_lens_blur_table[WO_LENS_BLUR_PARAMS] = {
      .group = "depth",
      .help =
          "What the numbers of the Depth clips mean. Distance: along the axis. Inverse: one over "
-         "it. Ray: distance from the camera. Normalised: 0 is Near, 1 is Far. Zero, negative "
-         "and non-finite distances are infinitely far.",
+         "it. Ray: distance from the camera. Normalised: 0 is Near, 1 is Far. Negative: distance "
+         "with a minus, as z in camera space is. Zero, negative and non-finite distances are "
+         "infinitely far.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(depth_mode),
      .initial = {WO_DEPTH_DISTANCE},

@@ -2,6 +2,7 @@
 /* Copyright the WideOpen authors */
 #include "effects/lens_blur_plan.h"
 
+#include "defocus/depth_check.h"
 #include "effects/lens_blur_focus.h"
 
 #include <math.h>
@@ -234,6 +235,24 @@ static double reach_of(const wo_plan *plan, const wo_sheet sheets[SHEETS])
     return fmin(reach, plan->setup.reach);
 }
 
+/* Depth that cannot be what was meant. Parts of a picture tell nothing: sky is a part, too. */
+static wo_status check_depth(wo_plan *plan, const wo_plan_args *args, wo_error *error)
+{
+    const wo_lens_blur_setup *setup = &plan->setup;
+    const wo_rect whole = wo_rect_intersect(plan->geometry.format, plan->geometry.extent);
+    if (wo_rect_empty(whole) || !wo_rect_contains(plan->window, whole))
+        return WO_OK;
+    for (int i = 0; i <= BACKGROUND; i++) {
+        const wo_sheet_source source = wo_lens_blur_layer(plan, args, i);
+        const int clip = i == BACKGROUND ? WO_CLIP_BACKGROUND_DEPTH : 2 * i + 1;
+        const bool used = i == BACKGROUND ? setup->background_used : setup->layer_used[i];
+        if (used && source.colour->data)
+            WO_TRY(wo_depth_check(&plan->context, &source, plan->window,
+                                  wo_lens_blur_clips[clip].name, i > 0, &plan->report, error));
+    }
+    return WO_OK;
+}
+
 static wo_status build_scene(wo_plan *plan, const wo_plan_args *args, wo_error *error)
 {
     const wo_context *context = &plan->context;
@@ -339,7 +358,7 @@ wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params
     if (status != WO_OK || wo_rect_empty(plan->window))
         goto done;
     status = wo_lens_blur_focus_make(&plan->params, args, &plan->setup, &plan->focus, error);
-    if (status != WO_OK)
+    if (status != WO_OK || (status = check_depth(plan, args, error)) != WO_OK)
         goto done;
     wo_lens_blur_find_copy(plan, args);
     if (plan->copy || (status = wo_lens_blur_lens_make(plan, error)) != WO_OK)

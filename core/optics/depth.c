@@ -29,6 +29,8 @@ double wo_depth_vergence(const wo_depth_reading *reading, double sample, double 
         }
         sample = fmin(fmax(sample, 0), 1);
         return at_distance(reading->near_m + sample * (reading->far_m - reading->near_m), valid);
+    case WO_DEPTH_NEGATIVE:
+        return at_distance(-sample / reading->scale, valid);
     case WO_DEPTH_DISTANCE:
     case WO_DEPTH_MODE_COUNT:
         break;

@@ -43,7 +43,8 @@ double wo_thin_lens_coc(const wo_thin_lens *lens, double v);
     X(WO_DEPTH_DISTANCE, "distance", "Distance")                                                   \
     X(WO_DEPTH_INVERSE, "inverse", "Inverse")                                                      \
     X(WO_DEPTH_RAY, "ray", "Ray")                                                                  \
-    X(WO_DEPTH_NORMALISED, "normalised", "Normalised")
+    X(WO_DEPTH_NORMALISED, "normalised", "Normalised")                                             \
+    X(WO_DEPTH_NEGATIVE, "negative", "Negative")
 
 typedef enum wo_depth_mode {
 #define WO_DEPTH_ENUM(name, key, label) name,
@@ -59,9 +60,10 @@ typedef struct wo_depth_reading {
 } wo_depth_reading;
 
 /* Vergence of a sample. cosine = z / distance along the pixel's ray (WO_DEPTH_RAY, else unused).
-   What is NaN, infinite, or not a depth (zero or negative; for WO_DEPTH_INVERSE negative, for
-   WO_DEPTH_NORMALISED NaN or infinite) means "no surface here": 0 is returned (infinitely far) and
-   *valid becomes false. The result is finite and >= 0, at most WO_VERGENCE_MAX. Does not fail. */
+   What is NaN, infinite, or not a depth (zero or negative; for WO_DEPTH_NEGATIVE zero or
+   positive, for WO_DEPTH_INVERSE negative, for WO_DEPTH_NORMALISED NaN or infinite) means "no
+   surface here": 0 is returned (infinitely far) and *valid becomes false. The result is finite and
+   >= 0, at most WO_VERGENCE_MAX. Does not fail. */
 #define WO_VERGENCE_MAX 1e6
 double wo_depth_vergence(const wo_depth_reading *reading, double sample, double cosine,
                          bool *valid);

@@ -1,6 +1,6 @@
 # Unit tests of core/optics, core/focus and core/defocus.
 foreach(name IN ITEMS
-        thin_lens aperture aperture_shapes aperture_kernel depth sheet sheet_edges sheet_depth stack
+        thin_lens aperture aperture_shapes aperture_kernel depth depth_check sheet sheet_edges sheet_depth stack
         march accumulate filter hybrid highlights point_image point_spread diagram pencil_map glass prescription
         prescription_designs prescription_fuzz focus pencil_tilt lens_first_order lens_trace lens_seidel lens_table
         lens_models lens_extremes)

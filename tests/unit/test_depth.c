@@ -27,6 +27,15 @@ static void distance(void **state)
     assert_true(read_as(WO_DEPTH_DISTANCE, 1e9, DBL_TRUE_MIN, 1, &valid) <= WO_VERGENCE_MAX);
 }
 
+static void negative(void **state)
+{
+    (void)state;
+    bool valid = false;
+    assert_close(read_as(WO_DEPTH_NEGATIVE, 1, -4, 0.1, &valid), 0.25, 1e-15);
+    assert_true(valid);
+    assert_close(read_as(WO_DEPTH_NEGATIVE, 100, -250, 1, &valid), 0.4, 1e-15);
+}
+
 static void inverse(void **state)
 {
     (void)state;
@@ -84,6 +93,10 @@ static void no_surface(void **state)
         {WO_DEPTH_DISTANCE, 0},
         {WO_DEPTH_DISTANCE, -0.0},
         {WO_DEPTH_DISTANCE, -2},
+        {WO_DEPTH_NEGATIVE, NAN},
+        {WO_DEPTH_NEGATIVE, -INFINITY},
+        {WO_DEPTH_NEGATIVE, 0},
+        {WO_DEPTH_NEGATIVE, 2},
         {WO_DEPTH_RAY, NAN},
         {WO_DEPTH_RAY, INFINITY},
         {WO_DEPTH_RAY, -INFINITY},
@@ -143,13 +156,10 @@ static void nearer_is_larger(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(distance),
-        cmocka_unit_test(inverse),
-        cmocka_unit_test(ray),
-        cmocka_unit_test(normalised),
-        cmocka_unit_test(no_surface),
-        cmocka_unit_test(always_a_number),
-        cmocka_unit_test(nearer_is_larger),
+        cmocka_unit_test(distance),        cmocka_unit_test(negative),
+        cmocka_unit_test(inverse),         cmocka_unit_test(ray),
+        cmocka_unit_test(normalised),      cmocka_unit_test(no_surface),
+        cmocka_unit_test(always_a_number), cmocka_unit_test(nearer_is_larger),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

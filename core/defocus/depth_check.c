@@ -1,0 +1,316 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "defocus/depth_check.h"
+
+#include <math.h>
+
+/* Renderers write 1e10, 1e30 or infinity where a ray leaves the scene. */
+#define HUGE_DEPTH 1e9f
+/* m: no scene lies beyond. */
+#define NEAREST  1e-3
+#define FARTHEST 1e5
+/* Part of the samples that says what kind they are: a filter rings, but never in so many pixels. */
+#define MANY 0.2
+/* All but the noise. */
+#define ALL 0.999
+/* Part of the pixels that depth at least covers. */
+#define COVERED 0.75
+/* Whole numbers below this are kept by floats of 16 bits, too, which above it know no others. */
+#define WHOLE_BELOW 1024
+/* Different values that a picture of few flat things does not have. */
+enum { LEVELS = 32 };
+/* Steps of files of 16 bits and of 8. */
+#define STEPS 65535.0
+/* px */
+enum { PIXELS_LEAST = 1024 };
+
+/* Samples by what they can be, with the sign that the reading expects. */
+typedef struct facts {
+    int64_t pixels;
+    int64_t huge; /* HUGE_DEPTH or more */
+    int64_t zero, negative, positive;
+    int64_t near, far;  /* of the positive: nearer than NEAREST, beyond FARTHEST, as read */
+    int64_t above_one;  /* of the positive */
+    int64_t small;      /* of the positive: below WHOLE_BELOW, */
+    int64_t fractional; /* and of these no whole number, */
+    int64_t between;    /* no multiple of 1/STEPS */
+    double low, high;   /* of negative and positive */
+} facts;
+
+typedef struct check_job {
+    const wo_sheet_source *source;
+    wo_rect window; /* has depth */
+    bool may_be_sky;
+    bool shown; /* only pixels that show something */
+    facts *workers;
+} check_job;
+
+static const facts nothing = {.low = HUGE_VAL, .high = -HUGE_VAL};
+
+static bool shows(const wo_sheet_source *source, int32_t x, int32_t y)
+{
+    float c[4];
+    (void)wo_read_colour(source->colour, source->alpha, x, y, c);
+    return c[3] != 0 || c[0] != 0 || c[1] != 0 || c[2] != 0;
+}
+
+static float sample_at(const wo_sheet_source *source, int32_t x, int32_t y)
+{
+    const int last = source->depth->components - 1;
+    const float sample = wo_image_at(
+        source->depth, x, y)[source->depth_channel < last ? source->depth_channel : last];
+    return source->reading.mode == WO_DEPTH_NEGATIVE ? -sample : sample;
+}
+
+static void add_positive(const wo_depth_reading *reading, double s, facts *to)
+{
+    const double scaled =
+        reading->mode == WO_DEPTH_INVERSE ? 1 / (s * reading->scale) : s / reading->scale;
+    const double steps = s * STEPS;
+    to->positive++;
+    to->near += scaled < NEAREST;
+    to->far += scaled > FARTHEST;
+    to->above_one += s > 1;
+    to->small += s < WHOLE_BELOW;
+    to->fractional += s < WHOLE_BELOW && s != floor(s);
+    to->between += s > 1 || fabs(steps - floor(steps + 0.5)) > 0.01;
+}
+
+static void count_row(void *user, size_t index, unsigned worker)
+{
+    check_job *job = user;
+    facts *to = &job->workers[worker];
+    facts row = *to;
+    const int32_t y = job->window.y1 + (int32_t)index;
+    for (int32_t x = job->window.x1; x < job->window.x2; x++) {
+        if (job->shown && !shows(job->source, x, y))
+            continue;
+        const float s = sample_at(job->source, x, y);
+        row.pixels++;
+        row.zero += s == 0;
+        row.huge += s >= HUGE_DEPTH;
+        if (s == 0 || !(fabsf(s) < HUGE_DEPTH))
+            continue;
+        row.low = fmin(row.low, (double)s);
+        row.high = fmax(row.high, (double)s);
+        if (s < 0)
+            row.negative++;
+        else
+            add_positive(&job->source->reading, (double)s, &row);
+    }
+    *to = row;
+}
+
+static facts count(const wo_context *context, check_job *job)
+{
+    const unsigned workers = wo_workers(context);
+    facts sum = nothing;
+    for (unsigned i = 0; i < workers; i++)
+        job->workers[i] = nothing;
+    wo_run(context, count_row, job, (size_t)wo_rect_height(job->window));
+    for (unsigned i = 0; i < workers; i++) {
+        const facts *f = &job->workers[i];
+        sum.pixels += f->pixels;
+        sum.huge += f->huge;
+        sum.zero += f->zero;
+        sum.negative += f->negative;
+        sum.positive += f->positive;
+        sum.near += f->near;
+        sum.far += f->far;
+        sum.above_one += f->above_one;
+        sum.small += f->small;
+        sum.fractional += f->fractional;
+        sum.between += f->between;
+        sum.low = fmin(sum.low, f->low);
+        sum.high = fmax(sum.high, f->high);
+    }
+    return sum;
+}
+
+/* Are there many values among the samples between 0 and limit? */
+static bool has_levels(const check_job *job, double limit)
+{
+    float seen[LEVELS];
+    int count = 0;
+    for (int32_t y = job->window.y1; y < job->window.y2; y++)
+        for (int32_t x = job->window.x1; x < job->window.x2; x++) {
+            const float s = sample_at(job->source, x, y);
+            int i = 0;
+            if (!(s > 0 && (double)s <= limit))
+                continue;
+            while (i < count && seen[i] != s)
+                i++;
+            if (i < count)
+                continue;
+            seen[count++] = s;
+            if (count == LEVELS)
+                return true;
+        }
+    return false;
+}
+
+/* What a warning says, in the order in which kinds are looked for. */
+typedef enum kind {
+    SANE,
+    NEGATIVE,
+    BOTH_SIGNS,
+    ZERO,
+    STEPPED,
+    UNIT_RANGE,
+    WHOLE,
+    TOO_FAR,
+    TOO_NEAR,
+    SKY_IN_INVERSE,
+    NOT_NORMALISED
+} kind;
+
+static kind kind_of_normalised(const facts *f)
+{
+    const double known = (double)(f->zero + f->negative + f->positive);
+    return (double)(f->negative + f->above_one) > MANY * known ? NOT_NORMALISED : SANE;
+}
+
+static kind kind_of(const check_job *job, const facts *f)
+{
+    const wo_depth_reading *reading = &job->source->reading;
+    const double known = (double)(f->negative + f->positive), positive = (double)f->positive;
+    if (f->pixels < PIXELS_LEAST)
+        return SANE;
+    if (reading->mode == WO_DEPTH_NORMALISED)
+        return kind_of_normalised(f);
+    if ((double)f->negative > MANY * known)
+        return (double)f->negative > (1 - MANY) * known ? NEGATIVE : BOTH_SIGNS;
+    if (f->zero == f->pixels && !job->may_be_sky)
+        return ZERO;
+    if (reading->mode == WO_DEPTH_INVERSE) {
+        if ((double)f->huge > (1 - ALL) * (double)f->pixels)
+            return SKY_IN_INVERSE;
+    } else if (f->positive > 0 && f->above_one == 0 && reading->scale >= 1) {
+        if (f->between == 0 && has_levels(job, 1))
+            return STEPPED;
+        if (f->high > 0.995 && f->low < 0.02)
+            return UNIT_RANGE;
+    }
+    if (f->small >= PIXELS_LEAST && f->fractional == 0 && has_levels(job, WHOLE_BELOW))
+        return WHOLE;
+    if (positive > 0 && (double)f->far >= ALL * positive && !job->may_be_sky)
+        return TOO_FAR;
+    if (positive > 0 && (double)f->near >= ALL * positive)
+        return TOO_NEAR;
+    return SANE;
+}
+
+static void warn(const check_job *job, const facts *f, const char *name, wo_report *report)
+{
+    const wo_depth_reading *reading = &job->source->reading;
+    const bool flipped = reading->mode == WO_DEPTH_NEGATIVE;
+    const double low = flipped ? -f->high : f->low, high = flipped ? -f->low : f->high;
+    const double known = (double)(f->negative + f->positive);
+    const double negative = 100 * (double)f->negative / known;
+    switch (kind_of(job, f)) {
+    case SANE:
+        break;
+    case NEGATIVE:
+        wo_report_warn(report, "depth-negative",
+                       "%s: %.0f %% of the depth is %s (%.4g .. %.4g), which is read as infinitely "
+                       "far; %s",
+                       name, negative, flipped ? "positive" : "negative", low, high,
+                       flipped ? "--set depthMode=distance"
+                               : "--set depthMode=negative for z in camera space");
+        break;
+    case BOTH_SIGNS:
+        wo_report_warn(report, "depth-negative",
+                       "%s: %.0f %% of the depth is %s (%.4g .. %.4g), which is read as infinitely "
+                       "far; is it the channel that holds the depth?",
+                       name, negative, flipped ? "positive" : "negative", low, high);
+        break;
+    case ZERO:
+        wo_report_warn(report, "depth-zero",
+                       "%s: the depth is 0 everywhere, which is read as infinitely far; is it the "
+                       "channel that holds the depth? --set useDepth=false where there is none",
+                       name);
+        break;
+    case STEPPED:
+    case UNIT_RANGE:
+        wo_report_warn(
+            report, "depth-normalised",
+            "%s: the depth goes from %.4g to %.4g %s, and is read as a distance; --set "
+            "depthMode=normalised with near and far in metres (far is where it is 1), or "
+            "depthMode=inverse with depthScale where white is near",
+            name, low, high,
+            kind_of(job, f) == STEPPED ? "in steps of a file of whole numbers"
+                                       : "as normalised or estimated depth does");
+        break;
+    case WHOLE:
+        wo_report_warn(
+            report, "depth-whole",
+            "%s: all depth is whole numbers (%.4g .. %.4g), as sensors and files of whole "
+            "numbers give, at %g to the metre; --set depthScale=1000 for millimetres, 100 "
+            "for centimetres",
+            name, low, high, reading->scale);
+        break;
+    case TOO_FAR:
+        wo_report_warn(
+            report, "depth-far",
+            "%s: all depth (%.4g .. %.4g) is read as farther than %g km; --set depthScale "
+            "says how many units make a metre: 1000 for millimetres, 100 for centimetres",
+            name, low, high, FARTHEST / 1000);
+        break;
+    case TOO_NEAR:
+        wo_report_warn(
+            report, "depth-near",
+            "%s: all depth (%.4g .. %.4g) is read as nearer than %g mm; --set depthScale "
+            "says how many units make a metre: 1 for metres, 0.001 for kilometres",
+            name, low, high, NEAREST * 1000);
+        break;
+    case SKY_IN_INVERSE:
+        wo_report_warn(
+            report, "depth-inverse",
+            "%s: %.2g %% of it is %g or more, as the sky is where depth is distance, and "
+            "is read as touching the lens; --set depthMode=distance",
+            name, 100 * (double)f->huge / (double)f->pixels, (double)HUGE_DEPTH);
+        break;
+    case NOT_NORMALISED:
+        wo_report_warn(report, "depth-not-normalised",
+                       "%s: much of the depth (%.4g .. %.4g) is outside 0 .. 1 and cut to near or "
+                       "far; --set depthMode=distance",
+                       name, low, high);
+        break;
+    }
+}
+
+static void check_size(const wo_sheet_source *source, wo_rect window, wo_rect inside,
+                       const char *name, wo_report *report)
+{
+    const double whole = (double)wo_rect_width(window) * wo_rect_height(window);
+    const double part = (double)wo_rect_width(inside) * wo_rect_height(inside);
+    const wo_rect b = source->depth->bounds;
+    if (wo_rect_empty(inside) || part < COVERED * whole)
+        wo_report_warn(report, "depth-size",
+                       "%s: the depth covers %d,%d .. %d,%d of %d,%d .. %d,%d px; beyond, its edge "
+                       "is repeated",
+                       name, b.x1, b.y1, b.x2, b.y2, window.x1, window.y1, window.x2, window.y2);
+}
+
+wo_status wo_depth_check(const wo_context *context, const wo_sheet_source *source, wo_rect window,
+                         const char *name, bool may_be_sky, wo_report *report, wo_error *error)
+{
+    if (!source->depth || !source->depth->data)
+        return WO_OK;
+    check_job job = {.source = source,
+                     .may_be_sky = may_be_sky,
+                     .window = wo_rect_intersect(window, source->depth->bounds)};
+    check_size(source, window, job.window, name, report);
+    if (wo_rect_empty(job.window))
+        return WO_OK;
+    if (!(job.workers = wo_new(context, error, wo_workers(context), sizeof *job.workers)))
+        return WO_ERR_NOMEM;
+    facts f = count(context, &job);
+    if (kind_of(&job, &f) != SANE) {
+        job.shown = true;
+        f = count(context, &job);
+        warn(&job, &f, name, report);
+    }
+    wo_delete(context, job.workers);
+    return WO_OK;
+}
