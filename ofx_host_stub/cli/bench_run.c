@@ -319,7 +319,7 @@ static wo_status prepare(set *s, const char *folder, wo_error *error)
                                    &s->instance, error));
     for (size_t i = 0; wo_inputs_at(s->inputs, i); i++) {
         wo_input *const input = wo_inputs_at(s->inputs, i);
-        const wo_host_source source = wo_input_source(input, 1, 1);
+        const wo_host_source source = wo_input_source(input, &project);
         WO_TRY(wo_host_set_clip(s->instance, wo_input_clip(input), &source, error));
     }
     WO_TRY(wo_bench_camera(s->instance, header, error));

@@ -23,6 +23,10 @@ static const wo_option options[] = {
      "name only when it is complete.",
      false},
     {"--frames", NULL, "LIST", "Frames: 12, 1001-1100, 1-100x2, several joined by commas.", false},
+    {"--range", NULL, "A-B",
+     "First and last frame of the shot that these are part of, for plugins that want to know; "
+     "otherwise those of the sequences.",
+     false},
     {"--context", NULL, "NAME",
      "General, Filter or Generator; without it the first of these that the plugin has.", false},
     {"--window", NULL, "X1,Y1,X2,Y2",
@@ -169,14 +173,28 @@ static int read_frames(wo_render_job *job)
     return WO_EXIT_OK;
 }
 
+static int read_range(wo_render_job *job)
+{
+    const char *const text = wo_args_value(job->args, "--range", 0);
+    wo_error error = {0};
+    if (!text)
+        return WO_EXIT_OK;
+    const wo_status status = wo_frames_read(text, &job->range, &error);
+    if (status == WO_ERR_NOMEM)
+        return wo_failure(&error);
+    return status == WO_OK ? WO_EXIT_OK : wo_usage_fault("render", "--range: %s", error.text);
+}
+
 static int read_job(wo_render_job *job)
 {
     const wo_args *const args = job->args;
     job->explain = wo_args_count(args, "--explain") > 0;
     job->metadata = wo_args_count(args, "--no-metadata") == 0;
     job->output.space = wo_args_value(args, "--out-space", 0);
-    const int code = read_numbers(job);
-    return code == WO_EXIT_OK ? read_frames(job) : code;
+    int code = read_numbers(job);
+    if (code == WO_EXIT_OK)
+        code = read_frames(job);
+    return code == WO_EXIT_OK ? read_range(job) : code;
 }
 
 /* ----------------------------------------------------------------------------------- the plugin */
@@ -293,66 +311,7 @@ static int open_files(wo_render_job *job)
     return add_clips(job);
 }
 
-/* --------------------------------------------------------------------------------- the instance */
-
-static void choose_project(wo_render_job *job)
-{
-    const wo_input *main = wo_inputs_find(job->inputs, "Source");
-    if (!main)
-        main = wo_inputs_at(job->inputs, 0);
-    if (!main)
-        return;
-    const wo_io_part *const header = wo_input_header(main);
-    job->project = header->display_window;
-    job->pixel_aspect =
-        isfinite(header->pixel_aspect) && header->pixel_aspect > 0 ? header->pixel_aspect : 1;
-}
-
-static wo_status connect_clips(wo_render_job *job, wo_error *error)
-{
-    for (size_t i = 0; wo_inputs_at(job->inputs, i); i++) {
-        wo_input *const input = wo_inputs_at(job->inputs, i);
-        const wo_host_source source = wo_input_source(input, job->frames.first, job->frames.last);
-        WO_TRY(wo_host_set_clip(job->instance, wo_input_clip(input), &source, error));
-    }
-    return WO_OK;
-}
-
-/* Clips for which the plugin wants numbers are raw, whatever they look like. */
-static wo_status follow_wishes(wo_render_job *job, wo_error *error)
-{
-    const wo_host_preferences *preferences = NULL;
-    bool changed = false;
-    WO_TRY(wo_host_get_preferences(job->instance, &preferences, error));
-    for (size_t i = 0; i < preferences->clip_count; i++) {
-        const wo_host_clip_preference *const wish = &preferences->clips[i];
-        wo_input *const input = wo_inputs_find(job->inputs, wish->clip);
-        if (input && wish->colourspace_count > 0 && !wo_input_is_raw(input) &&
-            strcmp(wish->colourspaces[0], WO_OFX_SPACE_RAW) == 0) {
-            wo_input_set_raw(input, true);
-            changed = true;
-        }
-    }
-    return changed ? connect_clips(job, error) : WO_OK;
-}
-
-static wo_status make_instance(wo_render_job *job, wo_error *error)
-{
-    choose_project(job);
-    const wo_rect p = job->project;
-    wo_host_project project = WO_HOST_PROJECT_INIT;
-    project.size[0] = wo_rect_width(p) * job->pixel_aspect;
-    project.size[1] = wo_rect_height(p);
-    project.offset[0] = p.x1 * job->pixel_aspect;
-    project.offset[1] = p.y1;
-    project.pixel_aspect = job->pixel_aspect;
-    project.first_frame = job->frames.first;
-    project.last_frame = job->frames.last;
-    WO_TRY(wo_host_instance_create(job->host, job->plugin, job->context->name, &project,
-                                   &job->instance, error));
-    WO_TRY(connect_clips(job, error));
-    return follow_wishes(job, error);
-}
+/* ------------------------------------------------------------------------------- the parameters */
 
 static int unknown_param(const wo_render_job *job, const char *name)
 {
@@ -465,7 +424,7 @@ static int run(wo_render_job *job)
              job->plugin->version_major, job->plugin->version_minor);
     job->output.made_by = made_by;
     wo_error error = {0};
-    if (make_instance(job, &error) != WO_OK)
+    if (wo_render_make_instance(job, &error) != WO_OK)
         return wo_failure(&error);
     for (int i = 0; i < wo_args_count(job->args, "--set"); i++) {
         code = set_param(job, wo_args_value(job->args, "--set", i));
@@ -495,6 +454,7 @@ int wo_cmd_render(int argc, char **argv)
     wo_colour_destroy(&job.colour);
     wo_record_free(&job.record);
     wo_frames_free(&job.frames);
+    wo_frames_free(&job.range);
     pthread_mutex_destroy(&job.lock);
     wo_args_free(&args);
     return code;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
-#include "render_input.h"
+#include "render_input_private.h"
 
 #include "picture_file.h"
+#include "sequence.h"
 
 #include <limits.h>
 #include <math.h>
@@ -11,50 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-
-enum { PICTURES_MAX = 8, FILES_MAX = 4 };
-
-/* One frame of one clip. */
-typedef struct picture {
-    int frame;
-    bool linear;      /* colour conversion is done, or not needed */
-    wo_image image;   /* data is malloc-ed */
-    wo_io_file *file; /* headers only */
-    size_t part;      /* of the file */
-    unsigned long used;
-} picture;
-
-struct wo_input {
-    wo_inputs *inputs;
-    const wo_host_clip_info *clip;
-    char *pattern;
-    char *channels;
-    char *space;
-    bool sequence;
-    bool raw;
-    picture pictures[PICTURES_MAX];
-    size_t picture_count;
-    const picture *present;
-};
-
-/* A file with its pixels, kept while the clips of one frame are read: several clips often lie in
-   one multi-part file. */
-typedef struct open_file {
-    char path[PATH_MAX];
-    wo_io_file *file;
-} open_file;
-
-struct wo_inputs {
-    wo_colour *colour;
-    const char *in_space;
-    const char *own;      /* parameters set by hand; NULL = no metadata is passed on */
-    pthread_mutex_t lock; /* guards all below once a render runs */
-    wo_input *clips[WO_INPUTS_MAX];
-    size_t count;
-    open_file files[FILES_MAX];
-    size_t file_count, file_next;
-    unsigned long clock;
-};
 
 wo_status wo_inputs_create(wo_colour *colour, const char *in_space, wo_inputs **inputs,
                            wo_error *error)
@@ -72,11 +29,11 @@ wo_status wo_inputs_create(wo_colour *colour, const char *in_space, wo_inputs **
     return WO_OK;
 }
 
-static void picture_clear(picture *p)
+static void picture_clear(wo_input_picture *p)
 {
     free(p->image.data);
     wo_io_file_destroy(&p->file);
-    *p = (picture){0};
+    *p = (wo_input_picture){0};
 }
 
 static void files_close(wo_inputs *inputs)
@@ -122,18 +79,18 @@ static wo_status open_cached(wo_inputs *inputs, const char *path, const wo_io_fi
         }
     wo_io_file *fresh = NULL;
     WO_TRY(wo_io_read(path, false, &fresh, error));
-    open_file *const slot = &inputs->files[inputs->file_next];
+    wo_open_file *const slot = &inputs->files[inputs->file_next];
     wo_io_file_destroy(&slot->file);
     snprintf(slot->path, sizeof slot->path, "%s", path);
     slot->file = fresh;
-    inputs->file_next = (inputs->file_next + 1) % FILES_MAX;
-    if (inputs->file_count < FILES_MAX)
+    inputs->file_next = (inputs->file_next + 1) % WO_FILES_MAX;
+    if (inputs->file_count < WO_FILES_MAX)
         inputs->file_count++;
     *file = fresh;
     return WO_OK;
 }
 
-static wo_status read_picture(wo_input *input, int frame, picture *p, wo_error *error)
+static wo_status read_picture(wo_input *input, int frame, wo_input_picture *p, wo_error *error)
 {
     char path[PATH_MAX];
     const wo_io_file *file;
@@ -149,7 +106,7 @@ static wo_status read_picture(wo_input *input, int frame, picture *p, wo_error *
     return WO_OK;
 }
 
-static wo_status make_linear(wo_input *input, picture *p, wo_error *error)
+wo_status wo_input_make_linear(wo_input *input, wo_input_picture *p, wo_error *error)
 {
     if (p->linear)
         return WO_OK;
@@ -160,14 +117,14 @@ static wo_status make_linear(wo_input *input, picture *p, wo_error *error)
     return WO_OK;
 }
 
-static picture *free_slot(wo_input *input)
+static wo_input_picture *free_slot(wo_input *input)
 {
-    const size_t room = input->clip->temporal ? PICTURES_MAX : 2;
+    const size_t room = input->clip->temporal ? WO_PICTURES_MAX : 2;
     if (input->picture_count < room)
         return &input->pictures[input->picture_count++];
-    picture *oldest = NULL;
+    wo_input_picture *oldest = NULL;
     for (size_t i = 0; i < input->picture_count; i++) {
-        picture *const p = &input->pictures[i];
+        wo_input_picture *const p = &input->pictures[i];
         if (p != input->present && (!oldest || p->used < oldest->used))
             oldest = p;
     }
@@ -175,8 +132,7 @@ static picture *free_slot(wo_input *input)
     return oldest;
 }
 
-/* The picture of a frame, read now if it is not held; a still has one for all frames. */
-static wo_status fetch(wo_input *input, int frame, picture **found, wo_error *error)
+wo_status wo_input_fetch(wo_input *input, int frame, wo_input_picture **found, wo_error *error)
 {
     const int wanted = input->sequence ? frame : 0;
     *found = NULL;
@@ -184,7 +140,7 @@ static wo_status fetch(wo_input *input, int frame, picture **found, wo_error *er
         if (input->pictures[i].file && input->pictures[i].frame == wanted)
             *found = &input->pictures[i];
     if (!*found) {
-        picture fresh = {0};
+        wo_input_picture fresh = {0};
         const wo_status status = read_picture(input, wanted, &fresh, error);
         if (status != WO_OK) {
             picture_clear(&fresh);
@@ -250,15 +206,31 @@ static wo_status choose_space(wo_input *input, int frame, wo_error *error)
     return input->space ? WO_OK : wo_fail(error, WO_ERR_NOMEM, "out of memory for a name");
 }
 
+int wo_input_stand_in(const wo_input *input, int frame)
+{
+    wo_sequence there;
+    if (!input->sequence || !input->clip->temporal || wo_picture_exists(input->pattern, frame) ||
+        !wo_sequence_look(input->pattern, frame, &there))
+        return frame;
+    return there.nearest;
+}
+
 static wo_status fill_input(wo_input *input, const char *spec, int frame, wo_error *error)
 {
-    picture *first;
+    wo_input_picture *first;
+    wo_sequence there;
     WO_TRY(wo_picture_split(spec, frame, &input->pattern, &input->channels, error));
     input->sequence = wo_io_is_sequence(input->pattern);
-    WO_TRY(fetch(input, frame, &first, error));
+    const int shown = wo_input_stand_in(input, frame);
+    WO_TRY(wo_input_fetch(input, shown, &first, error));
+    input->first = input->last = shown;
+    if (input->sequence && wo_sequence_look(input->pattern, shown, &there)) {
+        input->first = there.first;
+        input->last = there.last;
+    }
     input->present = first;
     input->raw = guess_raw(input);
-    return choose_space(input, frame, error);
+    return choose_space(input, shown, error);
 }
 
 wo_status wo_inputs_add(wo_inputs *inputs, const wo_host_clip_info *clip, const char *spec,
@@ -307,11 +279,12 @@ static wo_status prepare_all(wo_inputs *inputs, int frame, wo_error *error)
 {
     for (size_t i = 0; i < inputs->count; i++) {
         wo_input *const input = inputs->clips[i];
-        picture *p;
+        wo_input_picture *p;
         drop_others(input, frame);
-        WO_TRY(fetch(input, frame, &p, error));
+        WO_TRY(wo_input_fetch(input, wo_input_stand_in(input, frame), &p, error));
+        input->missed = input->given = false;
         input->present = p;
-        WO_TRY(make_linear(input, p, error));
+        WO_TRY(wo_input_make_linear(input, p, error));
     }
     return WO_OK;
 }
@@ -353,133 +326,4 @@ void wo_input_set_raw(wo_input *input, bool raw)
 const wo_io_part *wo_input_header(const wo_input *input)
 {
     return &input->present->file->parts[input->present->part];
-}
-
-/* ---------------------------------------------------------------------------------- the metadata
- */
-
-enum { NUMBER_SIZE = 40 };
-
-/* The shortest number that is the same in the file: a float of 1.4 is 1.39999998 as a double. */
-static const char *attribute_text(const wo_io_attribute *attribute, char number[NUMBER_SIZE])
-{
-    const double value = attribute->number;
-    const bool single = !strcmp(attribute->kind, "");
-    if (attribute->type == WO_IO_TEXT)
-        return attribute->text;
-    if (attribute->type == WO_IO_INT) {
-        snprintf(number, NUMBER_SIZE, "%.0f", value);
-        return number;
-    }
-    for (int digits = 6; digits <= 17; digits++) {
-        snprintf(number, NUMBER_SIZE, "%.*g", digits, value);
-        const double back = strtod(number, NULL);
-        if (back == value || (single && (float)back == (float)value))
-            break;
-    }
-    return number;
-}
-
-static void give_metadata(const wo_input *input, const picture *p, wo_host_add_metadata *add,
-                          void *to)
-{
-    const wo_io_part *const part = &p->file->parts[p->part];
-    char number[NUMBER_SIZE];
-    if (!input->inputs->own)
-        return;
-    for (size_t i = 0; i < part->attribute_count; i++)
-        add(to, part->attributes[i].name, attribute_text(&part->attributes[i], number));
-    add(to, "wideopen:own", input->inputs->own);
-}
-
-void wo_inputs_pass_metadata(wo_inputs *inputs, const char *own)
-{
-    inputs->own = own;
-}
-
-void wo_input_metadata(const wo_input *input, wo_host_add_metadata *add, void *to)
-{
-    give_metadata(input, input->present, add, to);
-}
-
-/* ------------------------------------------------------------------------------ the host's side */
-
-static double aspect_of(const picture *p)
-{
-    const double aspect = p->file->parts[p->part].pixel_aspect;
-    return isfinite(aspect) && aspect > 0 ? aspect : 1;
-}
-
-/* The linear picture at a time; the lock is held. A frame that is not on the disk is
-   WO_ERR_NOT_FOUND. */
-static wo_status picture_at(wo_input *input, double time, picture **p, wo_error *error)
-{
-    const int frame = (int)lround(fmin(fmax(time, -1e8), 1e8));
-    if (input->sequence && !wo_picture_exists(input->pattern, frame))
-        return wo_fail(error, WO_ERR_NOT_FOUND, "%s has no frame %d", input->pattern, frame);
-    WO_TRY(fetch(input, frame, p, error));
-    return make_linear(input, *p, error);
-}
-
-static wo_status host_region(void *user, double time, wo_host_region *region, wo_error *error)
-{
-    wo_input *const input = user;
-    picture *p;
-    pthread_mutex_lock(&input->inputs->lock);
-    const wo_status status = picture_at(input, time, &p, error);
-    if (status == WO_OK) {
-        const wo_rect b = p->image.bounds;
-        const double aspect = aspect_of(p);
-        *region = (wo_host_region){b.x1 * aspect, b.y1, b.x2 * aspect, b.y2};
-    }
-    pthread_mutex_unlock(&input->inputs->lock);
-    return status;
-}
-
-static wo_status host_pixels(void *user, const wo_host_request *request, const wo_image *image,
-                             wo_error *error)
-{
-    wo_input *const input = user;
-    picture *p;
-    pthread_mutex_lock(&input->inputs->lock);
-    wo_status status = picture_at(input, request->time, &p, error);
-    if (status == WO_OK) {
-        wo_host_still still = {
-            .image = p->image, .pixel_aspect = aspect_of(p), .nearest = input->raw};
-        status = wo_host_still_pixels(&still, request, image, error);
-    }
-    pthread_mutex_unlock(&input->inputs->lock);
-    return status;
-}
-
-static wo_status host_metadata(void *user, double time, wo_host_add_metadata *add, void *to,
-                               wo_error *error)
-{
-    wo_input *const input = user;
-    picture *p;
-    pthread_mutex_lock(&input->inputs->lock);
-    const wo_status status = picture_at(input, time, &p, error);
-    if (status == WO_OK)
-        give_metadata(input, p, add, to);
-    pthread_mutex_unlock(&input->inputs->lock);
-    return status;
-}
-
-wo_host_source wo_input_source(wo_input *input, int first, int last)
-{
-    wo_host_source source = WO_HOST_SOURCE_INIT;
-    source.user = input;
-    source.components = input->present->image.components;
-    if (!input->raw && source.components == 1)
-        source.components = 3; /* what make_linear gives */
-    source.alpha = source.components == 4 ? WO_HOST_PREMULTIPLIED : WO_HOST_OPAQUE;
-    source.pixel_aspect = aspect_of(input->present);
-    source.first_frame = first;
-    source.last_frame = last;
-    if (!input->clip->mask)
-        source.colourspace = input->raw ? WO_OFX_SPACE_RAW : WO_OFX_SPACE_WORKING;
-    source.region = host_region;
-    source.pixels = host_pixels;
-    source.metadata = host_metadata;
-    return source;
 }

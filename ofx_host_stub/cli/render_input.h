@@ -35,7 +35,7 @@ wo_input *wo_inputs_find(const wo_inputs *inputs, const char *clip);
 wo_input *wo_inputs_at(const wo_inputs *inputs, size_t index);
 
 /* Makes the pictures of one frame ready, drops what no clip needs any more. Fails when a file of
-   this frame is missing or damaged. */
+   this frame is missing or damaged; a clip that looks at other frames need not have this one. */
 WO_NODISCARD wo_status wo_inputs_prepare(wo_inputs *inputs, int frame, wo_error *error);
 
 /* What a clip is. */
@@ -59,8 +59,17 @@ void wo_inputs_pass_metadata(wo_inputs *inputs, const char *own);
 /* The attributes that plugins see of the present picture, one after the other. */
 void wo_input_metadata(const wo_input *input, wo_host_add_metadata *add, void *to);
 
-/* The clip as a source; valid as long as inputs live. first and last are the frames of the
-   render. */
-wo_host_source wo_input_source(wo_input *input, int first, int last);
+/* First and last frame of a sequence; false: it is a still, which is there at all times. */
+bool wo_input_frames(const wo_input *input, int *first, int *last);
+
+/* Frames per second as the present picture's file says. */
+double wo_input_rate(const wo_input *input, double otherwise);
+
+/* After a render of frame: fails when a clip does not have it and gave no other one in its place,
+   so that nothing was rendered from it. */
+WO_NODISCARD wo_status wo_inputs_check_given(const wo_inputs *inputs, int frame, wo_error *error);
+
+/* The clip as a source; valid as long as inputs live. A still lasts as long as the project. */
+wo_host_source wo_input_source(wo_input *input, const wo_host_project *project);
 
 #endif

@@ -130,9 +130,6 @@ static wo_status render_image(wo_render_job *job, wo_frame_record *frame, wo_ima
     wo_host_render_result result = {0};
     WO_TRY(cut_window(job, frame->frame, &args.window, error));
     args.time = frame->frame;
-    args.first_frame = job->frames.first;
-    args.last_frame = job->frames.last;
-    args.frame_step = job->frames.step;
     args.report = job->explain ? WO_HOST_REPORT_EXPLAIN : WO_HOST_REPORT_RENDER;
     args.report_user = &job->record;
     args.publish = publish;
@@ -142,7 +139,7 @@ static wo_status render_image(wo_render_job *job, wo_frame_record *frame, wo_ima
                  job->plugin->label);
     wo_render_progress(job, "", 0);
     const double start = wo_seconds();
-    const wo_status status = wo_host_render(job->instance, &args, image, &result, error);
+    wo_status status = wo_host_render(job->instance, &args, image, &result, error);
     frame->render_seconds = wo_seconds() - start;
     pthread_mutex_lock(&job->lock);
     wo_bar_end(&job->bar);
@@ -154,6 +151,8 @@ static wo_status render_image(wo_render_job *job, wo_frame_record *frame, wo_ima
     if (result.identity && result.identity_clip)
         snprintf(frame->identity_clip, sizeof frame->identity_clip, "%s", result.identity_clip);
     const char *const said = wo_host_persistent_message(job->instance);
+    if (status == WO_OK)
+        status = wo_inputs_check_given(job->inputs, frame->frame, error);
     if (status == WO_OK && *said)
         wo_message("plugin: %s", said);
     return status;

@@ -16,6 +16,7 @@
 typedef struct wo_render_job {
     const wo_args *args;
     wo_frames frames;
+    wo_frames range;            /* of the whole shot; empty = not said */
     wo_host_render_args render; /* scale, window, tiles */
     wo_output output;
     wo_rect project; /* display window at full size, pixels */
@@ -38,6 +39,9 @@ typedef struct wo_render_job {
     pthread_mutex_t lock;
     size_t frame_index;
 } wo_render_job;
+
+/* Makes the project and an instance in it, with its clips connected. */
+WO_NODISCARD wo_status wo_render_make_instance(wo_render_job *job, wo_error *error);
 
 /* Renders and writes every frame; stops at the first failure. The instance, its clips and
    parameters are set. */

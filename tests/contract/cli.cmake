@@ -31,6 +31,13 @@ add_test(NAME contract.camera
             ${CMAKE_CURRENT_BINARY_DIR}/camera_work)
 set_tests_properties(contract.camera PROPERTIES TIMEOUT 600 ENVIRONMENT "${cli_environment}")
 
+# Times, with a plugin that looks at other frames.
+add_test(NAME contract.frames
+    COMMAND ${CMAKE_CURRENT_LIST_DIR}/frames.sh $<TARGET_FILE:wideopen> $<TARGET_FILE:json_check>
+            ${CMAKE_CURRENT_BINARY_DIR}/frames_work ${CMAKE_CURRENT_BINARY_DIR}/host_plugins
+            $<TARGET_FILE:exr_tag>)
+set_tests_properties(contract.frames PROPERTIES TIMEOUT 300 ENVIRONMENT "${cli_environment}")
+
 # Other tools beside ours: the script alone, without the tools. It is no code of ours that runs there.
 if(NOT WO_SANITIZE)
     add_test(NAME contract.peers_without_sanitizers

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#ifndef WO_CLI_SEQUENCE_H
+#define WO_CLI_SEQUENCE_H
+
+#include <stdbool.h>
+
+/* Which frames of a sequence lie on the disk. Between the first and the last some may be missing.
+ */
+typedef struct wo_sequence {
+    int first, last;
+    int nearest; /* to the frame that was asked for; the earlier of two */
+} wo_sequence;
+
+/* pattern as wo_io_frame_path takes it. false: it has no mark, or there is no such file. */
+bool wo_sequence_look(const char *pattern, int near, wo_sequence *found);
+
+#endif
