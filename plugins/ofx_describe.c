@@ -227,17 +227,20 @@ static void set_hint(const wo_ofx_suites *s, OfxPropertySetHandle set, const wo_
     wo_ofx_set_string(s, set, kOfxParamPropHint, 0, hint);
 }
 
-/* A host without a type of parameter answers so; the effect then runs with the default. */
+/* A host that cannot make a parameter says so in one way or another; the effect then runs with the
+   default. */
 static bool is_lack(OfxStatus status)
 {
-    return status == kOfxStatErrUnsupported || status == kOfxStatErrUnknown;
+    return status != kOfxStatErrMemory && status != kOfxStatErrFatal;
 }
 
 static OfxStatus define_group(const wo_ofx_suites *s, OfxParamSetHandle params,
                               const wo_param_group *group, bool *defined)
 {
     OfxPropertySetHandle set = NULL;
-    const OfxStatus status = s->param->paramDefine(params, kOfxParamTypeGroup, group->key, &set);
+    OfxStatus status = s->param->paramDefine(params, kOfxParamTypeGroup, group->key, &set);
+    if (status == kOfxStatOK && !set)
+        status = kOfxStatFailed;
     *defined = status == kOfxStatOK;
     if (status != kOfxStatOK)
         return is_lack(status) ? kOfxStatOK : status;
@@ -252,8 +255,10 @@ static OfxStatus define_param(const wo_ofx_suites *s, OfxParamSetHandle params,
     bool animates = false;
     OfxPropertySetHandle set = NULL;
     const char *const type = type_of(s, param, &animates);
-    const OfxStatus status = s->param->paramDefine(params, type, param->key, &set);
+    OfxStatus status = s->param->paramDefine(params, type, param->key, &set);
 
+    if (status == kOfxStatOK && !set)
+        status = kOfxStatFailed;
     *defined = status == kOfxStatOK;
     if (status != kOfxStatOK)
         return is_lack(status) ? kOfxStatOK : status;
@@ -277,7 +282,7 @@ static OfxStatus define_params(const wo_ofx_suites *s, OfxImageEffectHandle hand
     TRY_OFX(s->effect->getParamSet(handle, &params));
     for (size_t i = 0; i < effect->group_count && has_groups; i++)
         TRY_OFX(define_group(s, params, &effect->groups[i], &has_groups));
-    if (s->param->paramDefine(params, kOfxParamTypePage, page_name, &page) == kOfxStatOK)
+    if (s->param->paramDefine(params, kOfxParamTypePage, page_name, &page) == kOfxStatOK && page)
         set_labels(s, page, page_name);
     else
         page = NULL;

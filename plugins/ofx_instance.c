@@ -4,7 +4,6 @@
 
 #include "ofx_camera.h"
 #include "ofx_geometry.h"
-#include "ofx_params.h"
 
 #include <stdio.h>
 
@@ -91,7 +90,7 @@ wo_status wo_ofx_action_read(wo_ofx_action *action)
     if (!action->params)
         return action->error.status;
     return wo_ofx_read_params(suites, effect, action->handle, action->time, action->params,
-                              &action->error);
+                              &action->lost, &action->error);
 }
 
 /* The newer suite keeps the text beside the node until it is cleared; the older one pops it up,

@@ -6,6 +6,7 @@
 #include <stdatomic.h>
 
 #include "ofx_memory.h"
+#include "ofx_params.h"
 #include "ofx_plugin.h"
 
 /* All that lives between two actions of one instance: flags, so that a message is shown once and
@@ -44,6 +45,7 @@ typedef struct wo_ofx_action {
     double aspect;   /* of a pixel: width over height */
     OfxRectD region; /* of definition of Source, canonical and finite */
     void *params;
+    wo_ofx_lost lost; /* defaults among params that the host has not given */
     wo_geometry geometry;
 } wo_ofx_action;
 

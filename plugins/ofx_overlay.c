@@ -164,7 +164,8 @@ static void read_handles(const overlay_action *a, handles *list)
     if (!params_of(a))
         return;
     void *const params = wo_new(&context, NULL, 1, a->effect->params_size);
-    if (params && wo_ofx_read_params(a->suites, a->effect, a->handle, time, params, NULL) == WO_OK)
+    if (params &&
+        wo_ofx_read_params(a->suites, a->effect, a->handle, time, params, NULL, NULL) == WO_OK)
         collect(a, params, list);
     wo_delete(&context, params);
 }

@@ -126,6 +126,18 @@ static void publish_warnings(wo_ofx_action *action, const wo_report *report)
     }
 }
 
+static void warn_of_lost(const wo_ofx_action *action, wo_report *report)
+{
+    const wo_ofx_lost *const lost = &action->lost;
+    const int others = lost->count - WO_OFX_LOST_NAMED;
+    char more[48] = "";
+    if (others > 0)
+        snprintf(more, sizeof more, " and %d more", others);
+    if (lost->count > 0)
+        wo_report_warn(report, "parameter-missing",
+                       "this host gives no value of %s%s: the default is taken", lost->keys, more);
+}
+
 typedef struct job {
     wo_rect window;
     wo_ofx_image output;
@@ -204,6 +216,7 @@ static wo_status plan_and_render(wo_ofx_action *action, job *j, int mode)
     wo_status status =
         effect->plan_create(&context, action->params, &j->args, &plan, &action->error);
     if (status == WO_OK && mode == kWideOpenReportExplain) {
+        publish_warnings(action, &j->report);
         if (effect->plan_report)
             publish_warnings(action, effect->plan_report(plan));
         status = publish_plan(action, plan);
@@ -226,6 +239,7 @@ static wo_status render(wo_ofx_action *action, job *j)
 {
     const int mode = report_mode(action);
     WO_TRY(wo_ofx_action_read(action));
+    warn_of_lost(action, &j->report);
     WO_TRY(read_window(action, &j->window));
     if (mode != kWideOpenReportExplain) {
         WO_TRY(wo_ofx_open_output(action, &j->window, &j->output));

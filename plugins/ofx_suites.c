@@ -12,7 +12,8 @@ static bool complete(const wo_ofx_suites *s)
            s->effect && s->effect->getPropertySet && s->effect->getParamSet &&
            s->effect->clipDefine && s->effect->clipGetHandle && s->effect->clipGetImage &&
            s->effect->clipReleaseImage && s->effect->clipGetRegionOfDefinition && s->param &&
-           s->param->paramDefine && s->param->paramGetHandle && s->param->paramGetValueAtTime;
+           s->param->paramDefine && s->param->paramGetHandle &&
+           (s->param->paramGetValueAtTime || s->param->paramGetValue);
 }
 
 OfxStatus wo_ofx_fetch_suites(const OfxHost *host, wo_ofx_suites *suites)

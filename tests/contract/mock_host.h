@@ -31,8 +31,20 @@ enum {
     MOCK_NO_INTERACT = 16384,
     MOCK_NO_DRAW = 32768,
     MOCK_HOLLOW_DRAW = 65536,
-    MOCK_READ_ONLY = 131072 /* no function that sets parameters */
+    MOCK_READ_ONLY = 131072, /* no function that sets parameters */
+    MOCK_TIMELESS = 262144   /* nor one that reads them at a time */
 };
+
+/* How a host does without a parameter. */
+typedef enum mock_loss {
+    MOCK_LOSE_NOTHING,
+    MOCK_LOSE_DEFINE,   /* it cannot be defined */
+    MOCK_LOSE_HANDLE,   /* it is defined, and not found */
+    MOCK_LOSE_VALUE,    /* it has no value */
+    MOCK_LOSE_AT_TIME,  /* it has none at a time */
+    MOCK_LOSE_SILENTLY, /* all is well, says the host, and writes nothing */
+    MOCK_LOSSES
+} mock_loss;
 
 enum { MOCK_OUTPUT = 4, MOCK_CLIPS };
 
@@ -69,6 +81,8 @@ typedef struct mock_state {
     unsigned cpus;
     bool spawned;       /* the calling thread is one of the host's */
     const char *refuse; /* paramDefine answers Unsupported for this type */
+    mock_loss lose;     /* what happens to the parameter lost, or with "" to all */
+    const char *lost;
     const char *forget; /* property that no set has */
     long fail_after;    /* memoryAlloc fails from this call on; < 0 = never */
     int abort_after;    /* abort answers 1 from this call on; < 0 = never */

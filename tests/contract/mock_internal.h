@@ -5,8 +5,8 @@
 
 #include "mock_host.h"
 
-/* mock_host.c: suites without objects. mock_props.c: property sets. mock_objects.c: parameters,
-   clips, actions. mock_overlay.c: interacts and what they draw. */
+/* mock_host.c: suites without objects. mock_props.c: property sets. mock_params.c: parameters.
+   mock_objects.c: clips, actions. mock_overlay.c: interacts and what they draw. */
 
 enum { PROPS_MAX = 64, VALUES_MAX = 24 };
 
@@ -27,6 +27,33 @@ struct OfxPropertySetStruct {
     int count;
 };
 
+enum { PARAMS_MAX = 32 };
+
+struct OfxParamStruct {
+    char name[64], type[32];
+    OfxPropertySetHandle props;
+    double numbers[3];
+    char *text;
+};
+
+struct OfxParamSetStruct {
+    struct OfxParamStruct items[PARAMS_MAX];
+    int count;
+};
+
+struct OfxImageClipStruct {
+    char name[32];
+    OfxPropertySetHandle props;
+    const mock_picture *picture;
+};
+
+struct OfxImageEffectStruct {
+    OfxPropertySetHandle props;
+    struct OfxParamSetStruct params;
+    struct OfxImageClipStruct clips[MOCK_CLIPS];
+    int clip_count;
+};
+
 OfxPropertySetHandle set_new(void);
 void set_free(OfxPropertySetHandle set);
 prop *prop_find(OfxPropertySetHandle set, const char *name); /* NULL: there is none */
@@ -39,6 +66,8 @@ OfxStatus get_int(OfxPropertySetHandle set, const char *name, int index, int *va
 OfxStatus get_double(OfxPropertySetHandle set, const char *name, int index, double *value);
 OfxStatus get_text(OfxPropertySetHandle set, const char *name, int index, char **value);
 OfxStatus get_pointer(OfxPropertySetHandle set, const char *name, int index, void **value);
+
+void take_defaults(OfxImageEffectHandle effect); /* of the descriptor, as its values */
 
 const void *mock_suite(const char *name, int version);
 const void *mock_property_suite(void);
