@@ -61,6 +61,8 @@ static const wo_option options[] = {
      "A first look: one scene of 320x180, 16 and 64 rays, one target, one run.", false},
     {"--threads", NULL, "N", "Threads, 1..256; default all cores.", false},
     WO_OPTION_PLUGIN_PATH,
+    WO_OPTION_PLUGIN_CACHE,
+    WO_OPTION_PLUGIN_WAIT,
     {"--json", NULL, NULL, "Print JSON instead of tables.", false},
     {"--progress", NULL, NULL, "Draw a progress bar even when stderr is no terminal.", false},
     {"--no-progress", NULL, NULL, "Draw no progress bar.", false},

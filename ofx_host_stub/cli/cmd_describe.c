@@ -9,6 +9,8 @@ static const wo_option options[] = {
     {"--context", NULL, "NAME",
      "General, Filter or Generator; without it the first of these that the plugin has.", false},
     WO_OPTION_PLUGIN_PATH,
+    WO_OPTION_PLUGIN_CACHE,
+    WO_OPTION_PLUGIN_WAIT,
     WO_OPTION_NOTES,
 };
 
@@ -142,11 +144,11 @@ static void print_json(const wo_host_plugin *plugin, const wo_host_context_info 
     wo_json_close(&json);
 }
 
-static int describe(const wo_args *args, const wo_host *host)
+static int describe(const wo_args *args, wo_host *host)
 {
+    const wo_host_plugin *const plugin = wo_session_plugin(host, args->positionals[0]);
     if (wo_args_count(args, "--notes"))
         wo_session_notes(host);
-    const wo_host_plugin *const plugin = wo_session_plugin(host, args->positionals[0]);
     if (!plugin)
         return WO_EXIT_USAGE;
     const char *const name = wo_args_value(args, "--context", 0);

@@ -63,6 +63,8 @@ static const wo_option options[] = {
     {"--progress", NULL, NULL, "Draw the progress bar even when stderr is no terminal.", false},
     {"--no-progress", NULL, NULL, "Draw no progress bar.", false},
     WO_OPTION_PLUGIN_PATH,
+    WO_OPTION_PLUGIN_CACHE,
+    WO_OPTION_PLUGIN_WAIT,
     WO_OPTION_NOTES,
 };
 
@@ -211,9 +213,9 @@ static int open_plugin(wo_render_job *job)
     const int code = wo_session_open(job->args, config, &job->host);
     if (code != WO_EXIT_OK)
         return code;
+    job->plugin = wo_session_plugin(job->host, job->args->positionals[0]);
     if (wo_args_count(job->args, "--notes"))
         wo_session_notes(job->host);
-    job->plugin = wo_session_plugin(job->host, job->args->positionals[0]);
     if (job->plugin)
         job->context =
             wo_session_context(job->plugin, wo_args_value(job->args, "--context", 0), "render");

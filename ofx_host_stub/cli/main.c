@@ -2,6 +2,7 @@
 /* Copyright the WideOpen authors */
 #include "args.h"
 #include "command.h"
+#include "session.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -48,6 +49,8 @@ static void keep_memory(void)
 
 int main(int argc, char **argv)
 {
+    if (argc > 1 && strcmp(argv[1], WO_SESSION_DESCRIBER) == 0)
+        return wo_host_describer(argc - 2, argv + 2);
     keep_memory();
     if (argc < 2) {
         print_help(stderr);

@@ -27,6 +27,28 @@ static bool print_plugin_message(void *user, wo_host_message type, const char *i
     return false;
 }
 
+/* Folder of the cache into path; "" = none. False after a message. */
+static bool choose_cache(const wo_args *args, char *path, size_t size)
+{
+    const char *chosen = wo_args_value(args, "--plugin-cache", 0);
+    const char *const xdg = getenv("XDG_CACHE_HOME"), *const home = getenv("HOME");
+    int used = 0;
+    if (!chosen)
+        chosen = getenv("WIDEOPEN_PLUGIN_CACHE");
+    if (chosen && *chosen)
+        used = snprintf(path, size, "%s", strcmp(chosen, "off") == 0 ? "" : chosen);
+    else if (xdg && *xdg == '/')
+        used = snprintf(path, size, "%s/wideopen/plugins", xdg);
+    else if (home && *home == '/')
+        used = snprintf(path, size, "%s/.cache/wideopen/plugins", home);
+    else
+        *path = '\0';
+    if (used >= 0 && (size_t)used < size)
+        return true;
+    wo_message("the path of the plugin cache is too long; give --plugin-cache DIR or off");
+    return false;
+}
+
 int wo_session_open(const wo_args *args, wo_host_config config, wo_host **host)
 {
     const char *directories[DIRECTORIES_MAX];
@@ -47,6 +69,14 @@ int wo_session_open(const wo_args *args, wo_host_config config, wo_host **host)
     char beside[PATH_MAX];
     if (wo_beside_program("Plugins", beside, sizeof beside) && is_directory(beside))
         directories[count++] = beside;
+    static const char *const describer[] = {"/proc/self/exe", WO_SESSION_DESCRIBER, NULL};
+    char cache[PATH_MAX];
+    if (!choose_cache(args, cache, sizeof cache))
+        return WO_EXIT_FAILURE;
+    if (!wo_args_double(args, "--plugin-wait", 0.1, 3600, &config.describe_seconds))
+        return WO_EXIT_USAGE;
+    config.describer = describer;
+    config.cache = cache;
     config.directories = directories;
     config.directory_count = count;
     config.search_path = true;
@@ -62,17 +92,25 @@ void wo_session_notes(const wo_host *host)
         wo_message("note: %s", wo_host_note(host, i));
 }
 
-const wo_host_plugin *wo_session_plugin(const wo_host *host, const char *name)
+void wo_session_failures(const wo_host *host)
+{
+    for (size_t i = 0; i < wo_host_failure_count(host); i++)
+        wo_message("failed: %s", wo_host_failure(host, i));
+}
+
+const wo_host_plugin *wo_session_plugin(wo_host *host, const char *name)
 {
     const wo_host_plugin *plugin = NULL;
     wo_error error = {0};
-    if (wo_host_find_plugin(host, name, &plugin, &error) == WO_OK)
+    const wo_status status = wo_host_find_plugin(host, name, &plugin, &error);
+    if (status == WO_OK)
         return plugin;
     wo_message("%s", error.text);
-    if (wo_host_plugin_count(host) == 0) {
-        wo_session_notes(host);
-        wo_message("set OFX_PLUGIN_PATH or give --plugin-path DIR");
-    }
+    if (status == WO_ERR_NOT_FOUND)
+        wo_session_failures(host);
+    if (status == WO_ERR_NOT_FOUND)
+        wo_message("wideopen list shows what is found in --plugin-path, OFX_PLUGIN_PATH and the "
+                   "folder Plugins beside this program");
     return NULL;
 }
 

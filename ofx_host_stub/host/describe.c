@@ -339,13 +339,13 @@ bool wo_entry_describe(wo_entry *entry)
     wo_host *host = entry->host;
     const char *identifier = entry->info.identifier;
     OfxStatus status = describe(entry);
-    if (status == kOfxStatOK) { /* as a well-known host does: once more from the start */
+    if (status == kOfxStatOK && host->config.strict) { /* as a well-known host does: once more */
         wo_entry_unload(entry);
         status = describe(entry);
     }
     if (status != kOfxStatOK) {
-        wo_note(host, "%s: %s does not describe itself: %s", entry->bundle, identifier,
-                wo_ofx_status_text(status));
+        wo_note_failure(host, "%s: %s does not describe itself: %s", entry->bundle, identifier,
+                        wo_ofx_status_text(status));
         return false;
     }
     wo_frame frame = {.outer = wo_frame_now(),
@@ -377,8 +377,11 @@ bool wo_entry_describe(wo_entry *entry)
     ok = ok && fill_plugin(entry);
     if (!ok)
         wo_note(host, "%s: %s: out of memory", entry->bundle, identifier);
-    else if (entry->context_count == 0)
+    else if (entry->context_count == 0 && status == kOfxStatOK)
         wo_note(host, "%s: %s has no context this host can run", entry->bundle, identifier);
+    else if (entry->context_count == 0)
+        wo_note_failure(host, "%s: %s describes itself in no context this host can run: %s",
+                        entry->bundle, identifier, wo_ofx_status_text(status));
     return ok && entry->context_count > 0;
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
-#include "internal.h"
+#include "catalogue.h"
 
 #include <limits.h>
 #include <stdarg.h>
@@ -64,17 +64,32 @@ void wo_texts_clear(wo_texts *texts)
     *texts = (wo_texts){0};
 }
 
-void wo_note(wo_host *host, const char *format, ...)
+static void note(wo_host *host, bool failure, const char *format, va_list args)
 {
     char text[1024];
-    va_list args;
-    va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
-    va_end(args);
     pthread_mutex_lock(&host->lock);
     (void)wo_texts_add(&host->notes,
                        text); /* a note that is lost for lack of memory harms nobody */
+    if (failure)
+        (void)wo_texts_add(&host->failures, text);
     pthread_mutex_unlock(&host->lock);
+}
+
+void wo_note(wo_host *host, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    note(host, false, format, args);
+    va_end(args);
+}
+
+void wo_note_failure(wo_host *host, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    note(host, true, format, args);
+    va_end(args);
 }
 
 static void violate(wo_host *host, const wo_frame *frame, const char *format, va_list args)
@@ -152,6 +167,16 @@ const char *wo_host_note(const wo_host *host, size_t index)
     return index < host->notes.count ? host->notes.items[index] : NULL;
 }
 
+size_t wo_host_failure_count(const wo_host *host)
+{
+    return host->failures.count;
+}
+
+const char *wo_host_failure(const wo_host *host, size_t index)
+{
+    return index < host->failures.count ? host->failures.items[index] : NULL;
+}
+
 unsigned wo_host_threads(const wo_host *host)
 {
     return wo_pool_size(host->pool);
@@ -169,12 +194,21 @@ wo_status wo_host_create(const wo_host_config *config, wo_host **out, wo_error *
     host->config = *config;
     host->config.directories = NULL;
     host->config.directory_count = 0;
+    host->config.describer = NULL;
+    host->config.cache = NULL;
+    if (!(host->config.describe_seconds > 0))
+        host->config.describe_seconds = 30;
     if (pthread_mutex_init(&host->lock, NULL) != 0) {
         free(host);
         return wo_fail(error, WO_ERR_NOMEM, "no mutex for a host");
     }
     wo_status status = WO_OK;
-    if (!wo_process_enter(host, config))
+    bool copied = wo_text_set(&host->cache, config->cache && *config->cache ? config->cache : NULL);
+    for (const char *const *word = config->describer; copied && word && *word; word++)
+        copied = wo_texts_add(&host->describer, *word);
+    if (!copied)
+        status = wo_fail(error, WO_ERR_NOMEM, "no memory for the describer of plugins");
+    if (!wo_process_enter(host, config) && status == WO_OK)
         status = wo_fail(error, WO_ERR_NOMEM, "no memory for the host's properties");
     if (status == WO_OK)
         status = wo_pool_create(config->threads, &host->pool, error);
@@ -213,10 +247,17 @@ void wo_host_destroy(wo_host **place)
     for (size_t i = 0; i < host->entry_count; i++)
         wo_entry_destroy(&host->entries[i]);
     free(host->entries);
+    for (size_t i = 0; i < host->binary_count; i++)
+        wo_binary_destroy(&host->binaries[i]);
+    free(host->binaries);
+    free(host->found);
+    free(host->cache);
+    wo_texts_clear(&host->describer);
     wo_pool_destroy(&host->pool);
     wo_process_leave(host);
     wo_texts_clear(&host->violations);
     wo_texts_clear(&host->notes);
+    wo_texts_clear(&host->failures);
     wo_texts_clear(&host->extensions);
     pthread_mutex_destroy(&host->lock);
     free(host);
@@ -243,59 +284,4 @@ size_t wo_host_plugin_count(const wo_host *host)
 const wo_host_plugin *wo_host_plugin_at(const wo_host *host, size_t index)
 {
     return index < host->entry_count ? &host->entries[index]->info : NULL;
-}
-
-static bool newer(const wo_host_plugin *a, const wo_host_plugin *b)
-{
-    if (a->version_major != b->version_major)
-        return a->version_major > b->version_major;
-    return a->version_minor > b->version_minor;
-}
-
-/* Adds a name to a comma-separated list, with "..." where it ends. */
-static void list_name(char *list, size_t size, const char *name)
-{
-    const size_t used = strlen(list);
-    const char *comma = used ? ", " : "";
-    if (used + strlen(comma) + strlen(name) + 6 < size)
-        snprintf(list + used, size - used, "%s%s", comma, name);
-    else if (used + 6 < size && (used < 3 || strcmp(list + used - 3, "...") != 0))
-        snprintf(list + used, size - used, ", ...");
-}
-
-wo_status wo_host_find_plugin(const wo_host *host, const char *name, const wo_host_plugin **plugin,
-                              wo_error *error)
-{
-    char list[180] = "";
-    const wo_host_plugin *whole = NULL, *part = NULL;
-    bool ambiguous = false;
-    *plugin = NULL;
-    if (!name || !*name)
-        return wo_fail(error, WO_ERR_ARGUMENT, "no plugin name given");
-    for (size_t i = 0; i < host->entry_count; i++) {
-        const wo_host_plugin *p = &host->entries[i]->info;
-        const char *dot = strrchr(p->identifier, '.');
-        if (strcmp(p->identifier, name) == 0 && (!whole || newer(p, whole)))
-            whole = p;
-        if (!dot || strcmp(dot + 1, name) != 0)
-            continue;
-        if (part && strcmp(part->identifier, p->identifier) != 0)
-            ambiguous = true;
-        else if (!part || newer(p, part))
-            part = p;
-    }
-    if (whole || (part && !ambiguous)) {
-        *plugin = whole ? whole : part;
-        return WO_OK;
-    }
-    for (size_t i = 0; i < host->entry_count; i++) {
-        const char *identifier = host->entries[i]->info.identifier;
-        const char *dot = strrchr(identifier, '.');
-        if (!ambiguous || (dot && strcmp(dot + 1, name) == 0))
-            list_name(list, sizeof list, identifier);
-    }
-    if (ambiguous)
-        return wo_fail(error, WO_ERR_ARGUMENT, "\"%.40s\" may be any of: %s", name, list);
-    return wo_fail(error, WO_ERR_NOT_FOUND, "no plugin \"%.40s\"; there %s%s", name,
-                   host->entry_count ? "is: " : "are none at all", list);
 }

@@ -58,9 +58,18 @@ typedef struct wo_host_config {
     const char *const *directories; /* searched first, in this order; borrowed for the call */
     size_t directory_count;
     bool search_path; /* search OFX_PLUGIN_PATH, then the system's default directory, as well */
-    bool background;  /* what plugins are told: nobody is watching */
-    bool strict;      /* guard areas round all images and memory, outsides of windows compared */
-    unsigned layout;  /* WO_HOST_NEGATIVE_ROWS ... */
+
+    /* How plugins are looked at. NULL: all that are found are loaded and described in this process;
+       one that crashes or hangs takes it along. Else the command line, NULL at its end, of a
+       program that gives what follows to wo_host_describer: then plugins are described in processes
+       of their own, and only the one that wo_host_find_plugin gives is loaded here. Both copied. */
+    const char *const *describer;
+    const char *cache;       /* folder for what describers found out; NULL or "" = none */
+    double describe_seconds; /* a step of a describer may take so long; 0 = 30 */
+
+    bool background; /* what plugins are told: nobody is watching */
+    bool strict;     /* guard areas round all images and memory, outsides of windows compared */
+    unsigned layout; /* WO_HOST_NEGATIVE_ROWS ... */
 
     void *user; /* given to the three callbacks */
 
@@ -75,9 +84,9 @@ typedef struct wo_host_config {
     bool (*aborted)(void *user);
 } wo_host_config;
 
-/* Makes a host and scans the directories of *config. Directories that do not exist and files that
-   are no plugins are no failure: each leaves a note (wo_host_note). *host is NULL after a failure.
- */
+/* Makes a host and scans the directories of *config; with a describer this only lists the bundles.
+   Directories that do not exist and files that are no plugins are no failure: each leaves a note
+   (wo_host_note). *host is NULL after a failure. */
 WO_NODISCARD wo_status wo_host_create(const wo_host_config *config, wo_host **host,
                                       wo_error *error);
 
@@ -212,14 +221,19 @@ typedef struct wo_host_plugin {
     void *internal;
 } wo_host_plugin;
 
-/* Every plugin found. Their descriptions are complete: a plugin that fails to load or to describe
-   itself is left out with a note. */
+/* Every plugin that was described in this process: all that were found, or with a describer those
+   that wo_host_find_plugin has given. Their descriptions are complete: a plugin that fails to load
+   or to describe itself is left out with a note. */
 size_t wo_host_plugin_count(const wo_host *host);
 const wo_host_plugin *wo_host_plugin_at(const wo_host *host, size_t index);
 
-/* Plugin by its whole identifier, or by its last part ("LensBlur"); the highest version wins. The
-   error of a miss lists what there is; of an ambiguous last part, the candidates. */
-WO_NODISCARD wo_status wo_host_find_plugin(const wo_host *host, const char *name,
+/* Plugin by its whole identifier, or by its last part ("LensBlur"), the nearest that fits: folders
+   are asked in the order of the search, in each of them first the bundle of that name, then the
+   others. Among those that are asked together a whole identifier wins over a last part, and then
+   the highest version; a last part that fits several is ambiguous. With a describer nobody beyond
+   the nearest is asked, and only the one that is given is loaded here. The error of a miss lists
+   what there is; of an ambiguous last part, the candidates. */
+WO_NODISCARD wo_status wo_host_find_plugin(wo_host *host, const char *name,
                                            const wo_host_plugin **plugin, wo_error *error);
 
 /* Context by full or short name; NULL when the plugin does not have it. */

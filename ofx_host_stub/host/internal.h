@@ -3,7 +3,7 @@
 #ifndef WO_HOST_INTERNAL_H
 #define WO_HOST_INTERNAL_H
 
-#include "host.h"
+#include "found.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -18,7 +18,9 @@
 
      host.c      the host, its notes and violations        process.c  what the whole process shares
      scan.c      directories and bundles                   load.c     binaries, Load and Unload
-     binary.c    files that would bring dlopen down
+     binary.c    files that would bring dlopen down        find.c     plugins by name, all plugins
+     catalogue.c what is known of plugins, as text         cache.c    the same in files
+     apart.c     plugins described in other processes
      describe.c  descriptors -> plain structs              object.c   effects, clips, parameters
      props.c     property sets, prop_suite.c their suite   schema.c   which object has which
      extensions.c properties of makers of hosts
@@ -244,13 +246,23 @@ typedef struct wo_texts { /* a growing list of strings */
     size_t count, capacity;
 } wo_texts;
 
+typedef struct wo_binary wo_binary;
+
 struct wo_host {
     wo_host_config config; /* without the directories */
     wo_pool *pool;
     pthread_mutex_t lock; /* violations, notes, extensions */
     wo_texts violations;
-    wo_texts notes;
-    wo_texts extensions; /* names of properties that have left a note */
+    wo_texts notes, failures;
+    wo_texts extensions;  /* names of properties that have left a note */
+    wo_texts describer;   /* command line; none = plugins are described here */
+    char *cache;          /* folder, or NULL */
+    bool cache_told;      /* that it cannot be written */
+    wo_binary **binaries; /* in the order of the search */
+    size_t binary_count, binary_capacity;
+    size_t folder_count;         /* searched so far */
+    const wo_host_found **found; /* by wo_host_survey */
+    size_t found_count, found_capacity;
     wo_entry **entries;
     size_t entry_count, entry_capacity;
     wo_host_instance *instances;
@@ -265,6 +277,7 @@ void wo_violate(wo_host *host, const char *format, ...) WO_PRINTF(2, 3);
 void wo_violate_in(const wo_frame *frame, const char *format, ...) WO_PRINTF(2, 3); /* afterwards */
 wo_host *wo_host_to_blame(wo_host *host); /* host itself, or as above; NULL when there is none */
 void wo_note(wo_host *host, const char *format, ...) WO_PRINTF(2, 3);
+void wo_note_failure(wo_host *host, const char *format, ...) WO_PRINTF(2, 3); /* is a note, too */
 
 /* false when out of memory. text is copied. */
 bool wo_texts_add(wo_texts *texts, const char *text);
@@ -385,8 +398,7 @@ struct wo_entry {        /* a plugin of one host */
     unsigned instance_count;
 };
 
-/* load.c. Adds the plugins of one binary to the host. */
-void wo_load_binary(wo_host *host, const char *bundle, const char *binary);
+/* load.c; see catalogue.h, too */
 void wo_entry_destroy(wo_entry **entry);
 OfxStatus wo_entry_load(wo_entry *entry);
 void wo_entry_unload(wo_entry *entry);

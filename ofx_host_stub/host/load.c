@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
-#include "internal.h"
+#include "catalogue.h"
 
 #include <dlfcn.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define PLUGINS_MAX 1000 /* in one binary */
 
 /* One plugin of a binary, for all hosts. Many libraries free the struct in Unload and make another
    one when they are asked again: the pointer is good from OfxGetPlugin to Unload. */
@@ -90,7 +88,7 @@ static wo_module *module_map(char *path, const char **why)
         return NULL;
     }
     const int plugins = count.count();
-    if (plugins < 1 || plugins > PLUGINS_MAX) {
+    if (plugins < 1 || plugins > WO_BINARY_PLUGINS_MAX) {
         *why = plugins < 1 ? "it says it has no plugins" : "it says it has too many plugins";
         module_free(module);
         return NULL;
@@ -109,13 +107,14 @@ static wo_module *module_map(char *path, const char **why)
     return module;
 }
 
-static wo_module *module_open(const char *binary, const char **why)
+wo_module *wo_module_open(const wo_binary *binary, const char **why)
 {
-    char *path = realpath(binary, NULL);
+    char *path = realpath(binary->path, NULL);
     if (!path) {
         *why = "it has no absolute path";
         return NULL;
     }
+    pthread_mutex_lock(&modules.lock);
     wo_module *module = modules.first;
     while (module && strcmp(module->path, path) != 0)
         module = module->next;
@@ -123,24 +122,35 @@ static wo_module *module_open(const char *binary, const char **why)
         free(path);
     } else {
         module = module_map(path, why);
-        if (!module)
-            return NULL;
-        module->next = modules.first;
-        modules.first = module;
+        if (module) {
+            module->next = modules.first;
+            modules.first = module;
+        }
     }
-    module->users++;
+    if (module)
+        module->users++;
+    pthread_mutex_unlock(&modules.lock);
     return module;
 }
 
-static void module_close(wo_module *module)
+void wo_module_close(wo_module **place)
 {
-    if (--module->users > 0)
-        return;
-    wo_module **link = &modules.first;
-    while (*link != module)
-        link = &(*link)->next;
-    *link = module->next;
-    module_free(module);
+    wo_module *module = *place;
+    pthread_mutex_lock(&modules.lock);
+    if (module && --module->users == 0) {
+        wo_module **link = &modules.first;
+        while (*link != module)
+            link = &(*link)->next;
+        *link = module->next;
+        module_free(module);
+    }
+    pthread_mutex_unlock(&modules.lock);
+    *place = NULL;
+}
+
+int wo_module_count(const wo_module *module)
+{
+    return module->count;
 }
 
 /* Why plugin `index` of a binary is none for us, NULL when it is one. Fetches it if need be; the
@@ -182,8 +192,8 @@ OfxStatus wo_entry_load(wo_entry *entry)
         return kOfxStatOK;
     pthread_mutex_lock(&modules.lock);
     if (unfit(entry->module, entry->index) || !same_plugin(entry, it->plugin)) {
-        wo_note(entry->host, "%s: plugin %d is no longer %s", entry->bundle, entry->index,
-                entry->identifier);
+        wo_note_failure(entry->host, "%s: plugin %d is no longer %s", entry->bundle, entry->index,
+                        entry->identifier);
         status = kOfxStatFailed;
     }
     entry->plugin = it->plugin;
@@ -232,9 +242,7 @@ void wo_entry_destroy(wo_entry **place)
         return;
     wo_entry_forget(entry);
     wo_entry_unload(entry);
-    pthread_mutex_lock(&modules.lock);
-    module_close(entry->module);
-    pthread_mutex_unlock(&modules.lock);
+    wo_module_close(&entry->module);
     free(entry->identifier);
     free(entry->bundle);
     free(entry->binary);
@@ -254,31 +262,20 @@ static bool known(const wo_host *host, const OfxPlugin *plugin)
     return false;
 }
 
-static void load_plugin(wo_host *host, wo_module *module, int index, const char *bundle,
-                        const char *binary)
+const char *wo_module_identifier(wo_module *module, int index)
 {
     pthread_mutex_lock(&modules.lock);
-    const char *why = unfit(module, index);
-    const OfxPlugin *plugin = module->plugins[index].plugin;
+    const bool fit = unfit(module, index) == NULL;
     pthread_mutex_unlock(&modules.lock);
-    if (why) {
-        wo_note(host, "%s: plugin %d %s", bundle, index, why);
-        return;
-    }
-    if (known(host, plugin)) {
-        wo_note(host, "%s: %s was found before", bundle, plugin->pluginIdentifier);
-        return;
-    }
-    wo_entry **entries =
-        wo_grow(host->entries, host->entry_count, &host->entry_capacity, sizeof *host->entries);
-    if (entries)
-        host->entries = entries;
+    return fit ? module->plugins[index].plugin->pluginIdentifier : NULL;
+}
+
+static wo_entry *entry_new(wo_host *host, const wo_binary *binary, wo_module *module, int index)
+{
+    const OfxPlugin *plugin = module->plugins[index].plugin;
     wo_entry *entry = calloc(1, sizeof *entry);
-    if (!entries || !entry) {
-        free(entry);
-        wo_note(host, "%s: out of memory", bundle);
-        return;
-    }
+    if (!entry)
+        return NULL;
     entry->host = host;
     entry->module = module;
     entry->index = index;
@@ -289,35 +286,49 @@ static void load_plugin(wo_host *host, wo_module *module, int index, const char 
     entry->info.version_major = plugin->pluginVersionMajor;
     entry->info.version_minor = plugin->pluginVersionMinor;
     entry->info.internal = entry;
-    entry->info.bundle = entry->bundle = wo_text_copy(bundle);
-    entry->info.binary = entry->binary = wo_text_copy(binary);
-    if (!entry->identifier || !entry->bundle || !entry->binary) {
-        wo_note(host, "%s: out of memory", bundle);
+    entry->info.bundle = entry->bundle = wo_text_copy(binary->bundle);
+    entry->info.binary = entry->binary = wo_text_copy(binary->path);
+    if (!entry->identifier || !entry->bundle || !entry->binary)
         wo_entry_destroy(&entry);
-        return;
-    }
-    if (!wo_entry_describe(entry)) {
-        wo_entry_destroy(&entry);
-        return;
-    }
-    host->entries[host->entry_count++] = entry;
+    return entry;
 }
 
-void wo_load_binary(wo_host *host, const char *bundle, const char *binary)
+/* Adds a described entry to the host and to its binary's catalogue. */
+static bool keep(wo_host *host, wo_binary *binary, wo_entry *entry, size_t breaches)
 {
-    const char *why = "";
-    pthread_mutex_lock(&modules.lock);
-    wo_module *module = module_open(binary, &why);
-    if (!module)
-        wo_note(host, "%s: %s", bundle, why);
-    pthread_mutex_unlock(&modules.lock);
-    if (!module)
-        return;
+    wo_entry **entries =
+        wo_grow(host->entries, host->entry_count, &host->entry_capacity, sizeof *host->entries);
+    if (entries)
+        host->entries = entries;
+    const size_t now = wo_host_violation_count(host);
+    if (!entries || !wo_catalogue_take(binary, entry, now - breaches,
+                                       now > breaches ? wo_host_violation(host, breaches) : ""))
+        return false;
+    host->entries[host->entry_count++] = entry;
+    return true;
+}
+
+wo_entry *wo_module_describe(wo_host *host, wo_binary *binary, wo_module *module, int index)
+{
+    const size_t breaches = wo_host_violation_count(host);
+    wo_entry *entry = NULL;
     pthread_mutex_lock(&modules.describing);
-    for (int i = 0; i < module->count; i++)
-        load_plugin(host, module, i, bundle, binary);
-    pthread_mutex_unlock(&modules.describing);
     pthread_mutex_lock(&modules.lock);
-    module_close(module);
+    const char *why = unfit(module, index);
     pthread_mutex_unlock(&modules.lock);
+    if (why)
+        wo_note(host, "%s: plugin %d %s", binary->bundle, index, why);
+    else if (known(host, module->plugins[index].plugin))
+        wo_note(host, "%s: %s was found before", binary->bundle,
+                module->plugins[index].plugin->pluginIdentifier);
+    else if (!(entry = entry_new(host, binary, module, index)))
+        wo_note(host, "%s: out of memory", binary->bundle);
+    if (entry && !wo_entry_describe(entry)) {
+        wo_entry_destroy(&entry);
+    } else if (entry && !keep(host, binary, entry, breaches)) {
+        wo_note(host, "%s: out of memory", binary->bundle);
+        wo_entry_destroy(&entry);
+    }
+    pthread_mutex_unlock(&modules.describing);
+    return entry;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
-#include "internal.h"
+#include "catalogue.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -57,7 +57,7 @@ static void scan_bundle(wo_host *host, const char *bundle, const char *name)
     if (stat(binary, &status) != 0 || !S_ISREG(status.st_mode))
         wo_note(host, "%s: no file %s", bundle, binary + strlen(bundle) + 1);
     else
-        wo_load_binary(host, bundle, binary);
+        wo_binary_found(host, bundle, binary);
     free(binary);
 }
 
@@ -156,6 +156,7 @@ static void scan(wo_host *host, const char *directory, folders *seen, int depth,
 void wo_scan_directory(wo_host *host, const char *directory, bool must_exist)
 {
     folders seen = {0};
+    host->folder_count++;
     scan(host, directory, &seen, 0, must_exist);
     free(seen.items);
 }
