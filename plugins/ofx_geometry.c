@@ -26,7 +26,7 @@ static int32_t whole(double v)
 
 static wo_rect pixels_of(const wo_ofx_action *action, OfxRectD r)
 {
-    const double sx = action->scale[0] / action->aspect, sy = action->scale[1];
+    const double sx = action->to_pixels[0], sy = action->to_pixels[1];
     const wo_rect pixels = {whole(floor(r.x1 * sx + slack)), whole(floor(r.y1 * sy + slack)),
                             whole(ceil(r.x2 * sx - slack)), whole(ceil(r.y2 * sy - slack))};
     return wo_rect_empty(pixels) ? (wo_rect){0, 0, 0, 0} : pixels;
@@ -92,14 +92,19 @@ void wo_ofx_read_geometry(wo_ofx_action *action)
             wo_ofx_get_double(s, action->properties, kOfxImageEffectPropProjectPixelAspectRatio, 1);
     action->aspect = aspect > 1e-3 && aspect < 1e3 ? aspect : 1;
 
+    action->to_pixels[0] = action->scale[0] / action->aspect;
+    action->to_pixels[1] = action->scale[1];
+
     OfxRectD frame, region;
     const bool has_frame = read_project(action, &frame);
     const bool has_source = read_source(action, &region);
     if (!has_frame)
         frame = has_source && is_finite_region(region) ? region : (OfxRectD){0, 0, 1, 1};
+    action->endless = has_source && !is_finite_region(region);
     region = has_source ? cut(region, frame) : frame;
     if (!is_finite_region(region))
         region = frame;
+    action->frame = frame;
     action->region = region;
 
     *geometry = (wo_geometry)WO_GEOMETRY_INIT;
@@ -118,16 +123,57 @@ wo_rect wo_ofx_to_pixels(const wo_ofx_action *action, OfxRectD region)
     return pixels_of(action, cut(region, wo_ofx_to_canonical(action, all)));
 }
 
-void wo_ofx_adopt_extent(wo_ofx_action *action, OfxPropertySetHandle image)
+/* The same but for rounding. */
+static bool is_near(wo_rect a, wo_rect b)
+{
+    return wo_rect_contains(wo_rect_grow(a, 1, 1), b) && wo_rect_contains(wo_rect_grow(b, 1, 1), a);
+}
+
+/* Where an image says that its clip has pixels; empty where it does not say. */
+static wo_rect defined_by(const wo_ofx_action *action, OfxPropertySetHandle image)
 {
     int sides[4];
     if (!wo_ofx_read_ints(action->suites, image, kOfxImagePropRegionOfDefinition, 4, sides))
-        return;
-    const wo_rect theirs = {sides[0], sides[1], sides[2], sides[3]};
-    const wo_rect ours = action->geometry.extent;
-    if (wo_rect_contains(wo_rect_grow(ours, 1, 1), theirs) &&
-        wo_rect_contains(theirs, wo_rect_grow(ours, -1, -1)) && !wo_rect_empty(theirs))
+        return (wo_rect){0, 0, 0, 0};
+    const wo_rect defined = {sides[0], sides[1], sides[2], sides[3]};
+    return wo_rect_empty(defined) ? (wo_rect){0, 0, 0, 0} : defined;
+}
+
+void wo_ofx_adopt_extent(wo_ofx_action *action, OfxPropertySetHandle image)
+{
+    const wo_rect theirs = defined_by(action, image);
+    if (!wo_rect_empty(theirs) && is_near(action->geometry.extent, theirs))
         action->geometry.extent = theirs;
+}
+
+bool wo_ofx_adopt_pixels(wo_ofx_action *action, OfxPropertySetHandle image, wo_rect bounds)
+{
+    const wo_rect extent = action->geometry.extent, defined = defined_by(action, image);
+    const double kept[2] = {action->to_pixels[0], action->to_pixels[1]};
+    if (wo_rect_empty(bounds) || wo_rect_contains(wo_rect_grow(extent, 1, 1), bounds))
+        return false;
+    action->to_pixels[0] = action->to_pixels[1] = 1;
+    const wo_rect raw = pixels_of(action, action->region);
+    if (is_near(raw, bounds) || (!wo_rect_empty(defined) && is_near(raw, defined))) {
+        action->geometry.extent = raw;
+        /* The project may be as the standard has it nevertheless. */
+        if (!is_near(action->geometry.format, raw))
+            action->geometry.format = pixels_of(action, action->frame);
+        return true;
+    }
+    action->to_pixels[0] = kept[0];
+    action->to_pixels[1] = kept[1];
+    return false;
+}
+
+void wo_ofx_adopt_source(wo_ofx_action *action, OfxPropertySetHandle image, wo_rect bounds)
+{
+    const wo_rect defined = defined_by(action, image);
+    if (wo_rect_empty(bounds) || wo_ofx_adopt_pixels(action, image, bounds) || action->endless)
+        return;
+    const wo_rect there = wo_rect_empty(defined) ? bounds : defined;
+    if (!wo_rect_contains(wo_rect_grow(action->geometry.extent, 1, 1), there))
+        action->geometry.extent = wo_rect_union(action->geometry.extent, there);
 }
 
 bool wo_ofx_clip_extent(const wo_ofx_action *action, size_t clip, wo_rect *extent)
@@ -158,6 +204,6 @@ wo_rect wo_ofx_visible(wo_rect needed, wo_rect all)
 
 OfxRectD wo_ofx_to_canonical(const wo_ofx_action *action, wo_rect pixels)
 {
-    const double sx = action->aspect / action->scale[0], sy = 1 / action->scale[1];
+    const double sx = 1 / action->to_pixels[0], sy = 1 / action->to_pixels[1];
     return (OfxRectD){pixels.x1 * sx, pixels.y1 * sy, pixels.x2 * sx, pixels.y2 * sy};
 }

@@ -8,6 +8,10 @@
 /* From canonical coordinates (square pixels, full size) to pixels and back:
 
        X = x * scale[0] / aspect,  Y = y * scale[1]
+
+   Some hosts name the regions of clips, and the project's size, in pixels at the scale of the
+   render instead. Who believes them at half scale fills a quarter of the picture. Where images of
+   Source lie tells them from others: then X = x, Y = y.
 */
 
 /* Fills time, scale, aspect, region and geometry of the action; does not fail, whatever the host
@@ -21,6 +25,14 @@ wo_rect wo_ofx_to_pixels(const wo_ofx_action *action, OfxRectD region);
 /* Takes over how the host has rounded Source's region to pixels, if this image, the output, says
  * so. */
 void wo_ofx_adopt_extent(wo_ofx_action *action, OfxPropertySetHandle image);
+
+/* The same by an image of Source with these bounds, where it has pixels that by the host's regions
+   cannot be there: true if that is because those are in pixels. extent and format are then what
+   they say. */
+bool wo_ofx_adopt_pixels(wo_ofx_action *action, OfxPropertySetHandle image, wo_rect bounds);
+
+/* The same, and where the region of Source is plainly wrong, it reaches as far as its image. */
+void wo_ofx_adopt_source(wo_ofx_action *action, OfxPropertySetHandle image, wo_rect bounds);
 
 /* Where a clip has pixels, cut likewise; false if the host does not say. */
 bool wo_ofx_clip_extent(const wo_ofx_action *action, size_t clip, wo_rect *extent);

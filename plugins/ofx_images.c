@@ -250,6 +250,18 @@ wo_status wo_ofx_open_input(wo_ofx_action *action, size_t clip, wo_rect needed, 
     return wo_image_validate(&image->view, action->effect->clips[clip].name, &action->error);
 }
 
+wo_status wo_ofx_look_at_source(wo_ofx_action *action)
+{
+    wo_ofx_image image = {.handle = NULL};
+    if (!action->geometry.connected[0])
+        return WO_OK;
+    const wo_status status = fetch(action, 0, NULL, &image);
+    if (status == WO_OK && image.pixels.data)
+        wo_ofx_adopt_source(action, image.handle, image.pixels.bounds);
+    wo_ofx_close(action, &image);
+    return status;
+}
+
 wo_status wo_ofx_open_output(wo_ofx_action *action, wo_rect *window, wo_ofx_image *image)
 {
     const wo_ofx_suites *const s = action->suites;

@@ -23,6 +23,10 @@ typedef struct wo_ofx_image {
 WO_NODISCARD wo_status wo_ofx_open_input(wo_ofx_action *action, size_t clip, wo_rect needed,
                                          wo_ofx_image *image);
 
+/* Looks at Source's image for where it has pixels, when the host's words on that cannot be right.
+ */
+WO_NODISCARD wo_status wo_ofx_look_at_source(wo_ofx_action *action);
+
 /* Opens the output for a window and cuts the window to what the host gave. The view is the host's
    memory, or own memory that wo_ofx_finish_output brings into the host's form. Close after any
    outcome. */

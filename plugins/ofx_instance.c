@@ -57,6 +57,7 @@ void wo_ofx_action_begin(wo_ofx_action *action, const wo_ofx_plugin *plugin,
                               .memory = {suites, handle},
                               .scale = {1, 1},
                               .aspect = 1,
+                              .to_pixels = {1, 1},
                               .geometry = WO_GEOMETRY_INIT};
     action->context.allocator = wo_ofx_allocator(&action->memory);
     if (suites->effect->getPropertySet(handle, &action->properties) != kOfxStatOK)

@@ -42,8 +42,11 @@ typedef struct wo_ofx_action {
 
     double time;
     double scale[2];
-    double aspect;   /* of a pixel: width over height */
-    OfxRectD region; /* of definition of Source, canonical and finite */
+    double aspect;       /* of a pixel: width over height */
+    double to_pixels[2]; /* from the host's regions: scale, and aspect in x */
+    OfxRectD frame;      /* the project's, canonical and finite */
+    OfxRectD region;     /* of definition of Source, likewise */
+    bool endless;        /* it was cut to the frame */
     void *params;
     wo_ofx_lost lost; /* defaults among params that the host has not given */
     wo_geometry geometry;

@@ -139,7 +139,8 @@ static void warn_of_lost(const wo_ofx_action *action, wo_report *report)
 }
 
 typedef struct job {
-    wo_rect window;
+    wo_rect asked;  /* by the host */
+    wo_rect window; /* the part of it where Source is */
     wo_ofx_image output;
     wo_ofx_image inputs[WO_CLIPS_MAX];
     wo_image views[WO_CLIPS_MAX];
@@ -235,36 +236,56 @@ static wo_status plan_and_render(wo_ofx_action *action, job *j, int mode)
     return status;
 }
 
+/* Opens what is needed of all clips; where Source turns out to lie elsewhere than the host has
+   said, once more. */
+static wo_status open_all(wo_ofx_action *action, job *j)
+{
+    bool connected[WO_CLIPS_MAX];
+    memcpy(connected, action->geometry.connected, sizeof connected);
+    if (!wo_rect_contains(wo_rect_grow(action->geometry.extent, 1, 1), j->asked))
+        WO_TRY(wo_ofx_look_at_source(action));
+    for (int round = 0; round < 2; round++) {
+        j->window = wo_rect_intersect(j->asked, action->geometry.extent);
+        if (wo_rect_empty(j->window))
+            return WO_OK;
+        WO_TRY(open_inputs(action, j));
+        if (!j->views[0].data ||
+            !wo_ofx_adopt_pixels(action, j->inputs[0].handle, j->inputs[0].pixels.bounds))
+            break;
+        for (size_t i = 0; i < action->effect->clip_count; i++) {
+            wo_ofx_close(action, &j->inputs[i]);
+            j->views[i] = j->inputs[i].view;
+            j->opened[i] = (wo_rect){0, 0, 0, 0};
+        }
+        memcpy(action->geometry.connected, connected, sizeof connected);
+    }
+    return WO_OK;
+}
+
 static wo_status render(wo_ofx_action *action, job *j)
 {
     const int mode = report_mode(action);
+    const bool shown = mode != kWideOpenReportExplain;
     WO_TRY(wo_ofx_action_read(action));
     warn_of_lost(action, &j->report);
-    WO_TRY(read_window(action, &j->window));
-    if (mode != kWideOpenReportExplain) {
-        WO_TRY(wo_ofx_open_output(action, &j->window, &j->output));
-        if (wo_rect_empty(j->window))
+    WO_TRY(read_window(action, &j->asked));
+    if (shown) {
+        WO_TRY(wo_ofx_open_output(action, &j->asked, &j->output));
+        if (wo_rect_empty(j->asked))
             return WO_OK;
         wo_ofx_adopt_extent(action, j->output.handle);
-        /* Beside Source there is nothing, whatever the host wants to see there. */
-        if (!wo_rect_contains(action->geometry.extent, j->window))
-            wo_ofx_clear_output(&j->output);
     }
-    j->window = wo_rect_intersect(j->window, action->geometry.extent);
-    if (wo_rect_empty(j->window)) {
+    WO_TRY(open_all(action, j));
+    /* Beside Source there is nothing, whatever the host wants to see there; without it the standard
+       wants transparent black. */
+    const bool nothing = wo_rect_empty(j->window) || !j->views[0].data;
+    if (shown && (nothing || !wo_rect_contains(j->window, j->asked)))
+        wo_ofx_clear_output(&j->output);
+    if (!nothing)
+        return plan_and_render(action, j, mode);
+    if (shown)
         wo_ofx_finish_output(&j->output);
-        return WO_OK;
-    }
-    WO_TRY(open_inputs(action, j));
-    if (!j->views[0].data) {
-        /* Without Source there is nothing to see; the standard wants transparent black. */
-        if (mode != kWideOpenReportExplain) {
-            wo_ofx_clear_output(&j->output);
-            wo_ofx_finish_output(&j->output);
-        }
-        return WO_OK;
-    }
-    return plan_and_render(action, j, mode);
+    return WO_OK;
 }
 
 OfxStatus wo_ofx_render(const wo_ofx_plugin *plugin, OfxImageEffectHandle handle,

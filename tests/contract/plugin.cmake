@@ -21,7 +21,7 @@ target_compile_definitions(wo_glue_fixture PRIVATE PROBE_BINARY="$<TARGET_FILE:P
 target_link_libraries(wo_glue_fixture PUBLIC
     wo_base wo_options cmocka Threads::Threads ${CMAKE_DL_LIBS} m)
 add_dependencies(wo_glue_fixture Probe)
-foreach(name IN ITEMS glue_hosts glue_images glue_params)
+foreach(name IN ITEMS glue_hosts glue_images glue_params glue_geometry)
     add_executable(test_${name} ${CMAKE_CURRENT_LIST_DIR}/test_${name}.c)
     target_link_libraries(test_${name} PRIVATE wo_glue_fixture)
     add_test(NAME contract.${name} COMMAND test_${name})

@@ -428,6 +428,10 @@ static void scales_and_aspects_reach_the_core(void **state)
     const double tiny[2] = {0.004, 0.004}, none[2] = {0, 0}, mad[2] = {NAN, -1};
     const double aspect = 2, zero = 0, size[2] = {1920, 1080}, offset[2] = {-100, 10};
     source_and_output();
+    /* A piece of Source, which is there at every scale. */
+    picture_make(&mock.pictures[0], (wo_rect){0, 0, 1, 1}, kOfxBitDepthFloat,
+                 kOfxImageComponentRGBA, 0, 1);
+    mock.pictures[0].region = (OfxRectD){-3, 2, 14, 11};
     mock_set_number(effect, "radius", 8, 0, 0);
     assert_true(says(effect, NULL, "scale=1.000000\nstretch=1.000000\n"));
     assert_true(says(effect, none, "scale=1.000000\nstretch=1.000000\n"));
