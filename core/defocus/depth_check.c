@@ -29,7 +29,7 @@ typedef struct facts {
     int64_t pixels;
     int64_t huge; /* HUGE_DEPTH or more */
     int64_t zero, negative, positive;
-    int64_t near, far;  /* of the positive: nearer than NEAREST, beyond FARTHEST, as read */
+    int64_t near, far;  /* of the positive: below nearest, beyond farthest of the job */
     int64_t above_one;  /* of the positive */
     int64_t small;      /* of the positive: below WHOLE_BELOW, */
     int64_t fractional; /* and of these no whole number, */
@@ -41,7 +41,8 @@ typedef struct check_job {
     const wo_sheet_source *source;
     wo_rect window; /* has depth */
     bool may_be_sky;
-    bool shown; /* only pixels that show something */
+    bool shown;              /* only pixels that show something */
+    float nearest, farthest; /* samples read as NEAREST and FARTHEST, or the other way round */
     facts *workers;
 } check_job;
 
@@ -54,51 +55,111 @@ static bool shows(const wo_sheet_source *source, int32_t x, int32_t y)
     return c[3] != 0 || c[0] != 0 || c[1] != 0 || c[2] != 0;
 }
 
-static float sample_at(const wo_sheet_source *source, int32_t x, int32_t y)
+static float sign_of(const wo_sheet_source *source)
 {
-    const int last = source->depth->components - 1;
-    const float sample = wo_image_at(
-        source->depth, x, y)[source->depth_channel < last ? source->depth_channel : last];
-    return source->reading.mode == WO_DEPTH_NEGATIVE ? -sample : sample;
+    return source->reading.mode == WO_DEPTH_NEGATIVE ? -1 : 1;
 }
 
-static void add_positive(const wo_depth_reading *reading, double s, facts *to)
+static const float *samples_at(const wo_sheet_source *source, int32_t x, int32_t y)
 {
-    const double scaled =
-        reading->mode == WO_DEPTH_INVERSE ? 1 / (s * reading->scale) : s / reading->scale;
-    const double steps = s * STEPS;
-    to->positive++;
-    to->near += scaled < NEAREST;
-    to->far += scaled > FARTHEST;
-    to->above_one += s > 1;
-    to->small += s < WHOLE_BELOW;
-    to->fractional += s < WHOLE_BELOW && s != floor(s);
-    to->between += s > 1 || fabs(steps - floor(steps + 0.5)) > 0.01;
+    const int last = source->depth->components - 1;
+    return wo_image_at(source->depth, x, y) +
+           (source->depth_channel < last ? source->depth_channel : last);
+}
+
+/* Loops over so many floats side by side, without branches, become vectors. */
+enum { LANES = 16, CHUNK = 32 * LANES };
+
+static bool is_known(float s)
+{
+    return (s != 0) & (fabsf(s) < HUGE_DEPTH);
+}
+
+static void add_range(const float samples[CHUNK], facts *to)
+{
+    float low[LANES], high[LANES];
+    for (int k = 0; k < LANES; k++) {
+        low[k] = (float)to->low;
+        high[k] = (float)to->high;
+    }
+    for (int i = 0; i < CHUNK; i += LANES)
+        for (int k = 0; k < LANES; k++) {
+            const float s = is_known(samples[i + k]) ? samples[i + k] : NAN;
+            low[k] = s < low[k] ? s : low[k];
+            high[k] = s > high[k] ? s : high[k];
+        }
+    for (int k = 0; k < LANES; k++) {
+        to->low = fmin(to->low, (double)low[k]);
+        to->high = fmax(to->high, (double)high[k]);
+    }
+}
+
+/* n samples, with the sign that the reading expects; those behind them become NaN. */
+static void add_samples(const check_job *job, float samples[CHUNK], int n, facts *to)
+{
+    const float nearest = job->nearest, farthest = job->farthest, steps = (float)STEPS;
+    int zero = 0, huge = 0, negative = 0, positive = 0, near = 0, far = 0, above_one = 0;
+    int small = 0, fractional = 0, between = 0;
+    for (int i = n; i < CHUNK; i++)
+        samples[i] = NAN;
+    add_range(samples, to);
+    for (int i = 0; i < CHUNK; i++) {
+        const float s = samples[i];
+        const int known = is_known(s), above = known & (s > 0);
+        const float whole = above & (s < WHOLE_BELOW) ? s : 0;
+        const float step = (above & (s <= 1) ? s : 0) * steps;
+        zero += s == 0;
+        huge += s >= HUGE_DEPTH;
+        negative += known & (s < 0);
+        positive += above;
+        near += above & (s < nearest);
+        far += above & (s > farthest);
+        above_one += above & (s > 1);
+        small += whole > 0;
+        fractional += whole != (float)(int)whole;
+        between += fabsf(step - (float)(int)(step + 0.5f)) > 0.02f;
+    }
+    to->pixels += n;
+    to->zero += zero;
+    to->huge += huge;
+    to->negative += negative;
+    to->positive += positive;
+    to->near += near;
+    to->far += far;
+    to->above_one += above_one;
+    to->small += small;
+    to->fractional += fractional;
+    to->between += between;
 }
 
 static void count_row(void *user, size_t index, unsigned worker)
 {
     check_job *job = user;
-    facts *to = &job->workers[worker];
-    facts row = *to;
     const int32_t y = job->window.y1 + (int32_t)index;
-    for (int32_t x = job->window.x1; x < job->window.x2; x++) {
+    const int32_t stride = job->source->depth->components;
+    const float *at = samples_at(job->source, job->window.x1, y);
+    const float sign = sign_of(job->source);
+    float samples[CHUNK];
+    int n = 0;
+    for (int32_t x = job->window.x1; x < job->window.x2; x++, at += stride) {
         if (job->shown && !shows(job->source, x, y))
             continue;
-        const float s = sample_at(job->source, x, y);
-        row.pixels++;
-        row.zero += s == 0;
-        row.huge += s >= HUGE_DEPTH;
-        if (s == 0 || !(fabsf(s) < HUGE_DEPTH))
+        samples[n++] = sign * *at;
+        if (n < CHUNK)
             continue;
-        row.low = fmin(row.low, (double)s);
-        row.high = fmax(row.high, (double)s);
-        if (s < 0)
-            row.negative++;
-        else
-            add_positive(&job->source->reading, (double)s, &row);
+        add_samples(job, samples, n, &job->workers[worker]);
+        n = 0;
     }
-    *to = row;
+    add_samples(job, samples, n, &job->workers[worker]);
+}
+
+/* Bounds of what is read as neither too near nor too far, in samples. */
+static void set_bounds(check_job *job)
+{
+    const wo_depth_reading *reading = &job->source->reading;
+    const bool inverse = reading->mode == WO_DEPTH_INVERSE;
+    job->nearest = (float)(inverse ? 1 / (FARTHEST * reading->scale) : NEAREST * reading->scale);
+    job->farthest = (float)(inverse ? 1 / (NEAREST * reading->scale) : FARTHEST * reading->scale);
 }
 
 static facts count(const wo_context *context, check_job *job)
@@ -134,7 +195,7 @@ static bool has_levels(const check_job *job, double limit)
     int count = 0;
     for (int32_t y = job->window.y1; y < job->window.y2; y++)
         for (int32_t x = job->window.x1; x < job->window.x2; x++) {
-            const float s = sample_at(job->source, x, y);
+            const float s = sign_of(job->source) * *samples_at(job->source, x, y);
             int i = 0;
             if (!(s > 0 && (double)s <= limit))
                 continue;
@@ -193,9 +254,12 @@ static kind kind_of(const check_job *job, const facts *f)
     }
     if (f->small >= PIXELS_LEAST && f->fractional == 0 && has_levels(job, WHOLE_BELOW))
         return WHOLE;
-    if (positive > 0 && (double)f->far >= ALL * positive && !job->may_be_sky)
+    const bool inverse = reading->mode == WO_DEPTH_INVERSE;
+    const double far = (double)(inverse ? f->near : f->far);
+    const double near = (double)(inverse ? f->far : f->near);
+    if (positive > 0 && far >= ALL * positive && !job->may_be_sky)
         return TOO_FAR;
-    if (positive > 0 && (double)f->near >= ALL * positive)
+    if (positive > 0 && near >= ALL * positive)
         return TOO_NEAR;
     return SANE;
 }
@@ -305,6 +369,7 @@ wo_status wo_depth_check(const wo_context *context, const wo_sheet_source *sourc
         return WO_OK;
     if (!(job.workers = wo_new(context, error, wo_workers(context), sizeof *job.workers)))
         return WO_ERR_NOMEM;
+    set_bounds(&job);
     facts f = count(context, &job);
     if (kind_of(&job, &f) != SANE) {
         job.shown = true;

@@ -196,6 +196,8 @@ static const tried cases[] = {
     {DISTANT, AS(DISTANCE, 1), "depth-far", "depthScale"},
     {METRES, AS(DISTANCE, 1e-6), "depth-far", "depthScale"},
     {TINY, AS(DISTANCE, 1), "depth-near", "depthScale"},
+    {INVERSE, AS(INVERSE, 1e-6), "depth-far", "depthScale"},
+    {INVERSE, AS(INVERSE, 1e6), "depth-near", "depthScale"},
     {METRES, AS(INVERSE, 1), "depth-inverse", "depthMode=distance"},
     {METRES_HALF, AS(INVERSE, 1), "depth-inverse", "depthMode=distance"},
     {METRES, AS(NORMALISED, 1), "depth-not-normalised", "depthMode=distance"},
