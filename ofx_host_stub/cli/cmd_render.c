@@ -23,6 +23,10 @@ static const wo_option options[] = {
      "name only when it is complete.",
      false},
     {"--frames", NULL, "LIST", "Frames: 12, 1001-1100, 1-100x2, several joined by commas.", false},
+    {"--missing-frames", NULL, "WHAT",
+     "A frame of a sequence that is not there: error (stop), skip (leave it out) or hold (the one "
+     "before it stands in its place, before the first one the first).",
+     false},
     {"--range", NULL, "A-B",
      "First and last frame of the shot that these are part of, for plugins that want to know; "
      "otherwise those of the sequences.",
@@ -34,6 +38,11 @@ static const wo_option options[] = {
      false},
     {"--scale", NULL, "S", "Render scale, 0.01..1: 0.5 makes a picture of half the width.", false},
     {"--tile", NULL, "N", "Ask the plugin for tiles of N x N pixels, 8..65536.", false},
+    {"--clip-size", NULL, "WHAT",
+     "A clip whose picture is not as large as Source's: error (stop), scale (display window upon "
+     "display window; depth and other numbers are picked, not mixed) or keep (it lies where its "
+     "coordinates say). Another pixel aspect alone is always resampled.",
+     false},
     {"--size", NULL, "WxH", "Size of the picture when there is no input; 1920x1080.", false},
     {"--threads", NULL, "N", "Threads the plugin may use; all cores.", false},
     {"--in-space", NULL, "NAME",
@@ -124,6 +133,31 @@ static int read_bits(wo_render_job *job)
                           text);
 }
 
+/* Index of the word that an option has, 0 without the option; -1: it is none of them. */
+static int read_word(const wo_args *args, const char *option, const char *const words[3])
+{
+    const char *const text = wo_args_value(args, option, 0);
+    for (int i = 0; i < 3; i++)
+        if (!text || strcmp(text, words[i]) == 0)
+            return i;
+    wo_usage_fault("render", "%s is \"%s\", but must be %s, %s or %s", option, text, words[0],
+                   words[1], words[2]);
+    return -1;
+}
+
+static int read_rules(wo_render_job *job)
+{
+    static const char *const sizes[] = {"error", "scale", "keep"};
+    static const char *const missing[] = {"error", "skip", "hold"};
+    const int size = read_word(job->args, "--clip-size", sizes);
+    const int frames = size < 0 ? -1 : read_word(job->args, "--missing-frames", missing);
+    if (frames < 0)
+        return WO_EXIT_USAGE;
+    job->clip_size = (wo_clip_size)size;
+    job->missing = (wo_missing_frames)frames;
+    return WO_EXIT_OK;
+}
+
 static int read_numbers(wo_render_job *job)
 {
     double scale = 1;
@@ -195,6 +229,8 @@ static int read_job(wo_render_job *job)
     job->output.space = wo_args_value(args, "--out-space", 0);
     int code = read_numbers(job);
     if (code == WO_EXIT_OK)
+        code = read_rules(job);
+    if (code == WO_EXIT_OK)
         code = read_frames(job);
     return code == WO_EXIT_OK ? read_range(job) : code;
 }
@@ -264,8 +300,13 @@ static int add_clip(wo_render_job *job, const char *text)
     if (wo_inputs_find(job->inputs, clip->name))
         return wo_usage_fault("render", "clip %s is given twice", clip->name);
     wo_error why = {0}, error = {0};
-    if (wo_inputs_add(job->inputs, clip, equals + 1, job->frames.numbers[0], &why) == WO_OK)
+    if (wo_inputs_add(job->inputs, clip, equals + 1, job->frames.numbers[0], &why) == WO_OK) {
+        const wo_input *const input = wo_inputs_find(job->inputs, clip->name);
+        if (wo_input_found(input))
+            wo_message("clip %s: channel %s of %s", clip->name, wo_input_found(input),
+                       wo_input_file(input));
         return WO_EXIT_OK;
+    }
     wo_fail(&error, why.status, "clip %s: %s", clip->name, why.text);
     return wo_failure(&error);
 }
@@ -306,6 +347,7 @@ static int open_files(wo_render_job *job)
         return wo_usage_fault("render", "--out-space: %s", error.text);
     if (wo_inputs_create(job->colour, in_space, &job->inputs, &error) != WO_OK)
         return wo_failure(&error);
+    wo_inputs_set_missing(job->inputs, job->missing);
     wo_camera_own(job->args, job->own, sizeof job->own);
     wo_inputs_pass_metadata(job->inputs, job->metadata ? job->own : NULL);
     if (!job->explain && wo_output_check(&job->output, job->frames.first, &error) != WO_OK)

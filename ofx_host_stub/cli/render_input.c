@@ -2,6 +2,7 @@
 /* Copyright the WideOpen authors */
 #include "render_input_private.h"
 
+#include "depth_channel.h"
 #include "picture_file.h"
 #include "sequence.h"
 
@@ -96,6 +97,12 @@ static wo_status read_picture(wo_input *input, int frame, wo_input_picture *p, w
     const wo_io_file *file;
     const wo_io_part *part = NULL;
     WO_TRY(wo_io_frame_path(input->pattern, frame, path, sizeof path, error));
+    if (input->sequence && !wo_picture_exists(input->pattern, frame))
+        return wo_fail(
+            error, WO_ERR_IO,
+            "there is no %s; --missing-frames skip leaves such a frame out, hold repeats "
+            "the one before it",
+            path);
     WO_TRY(open_cached(input->inputs, path, &file, error));
     WO_TRY(wo_io_select(file, input->channels, &p->image, &part, error));
     p->frame = frame;
@@ -106,6 +113,19 @@ static wo_status read_picture(wo_input *input, int frame, wo_input_picture *p, w
     return WO_OK;
 }
 
+static wo_status fit(const wo_input *input, wo_input_picture *p, wo_error *error)
+{
+    const wo_inputs *const inputs = input->inputs;
+    wo_error why = {0};
+    if (!inputs->main || input == inputs->main)
+        return WO_OK;
+    const wo_status status = wo_picture_fit(&inputs->pixels, &p->file->parts[p->part],
+                                            input->raw && !input->clip->mask, &p->image, &why);
+    return status == WO_OK ? WO_OK
+                           : wo_fail(error, status, "clip %s: %.300s: %s", input->clip->name,
+                                     input->pattern, why.text);
+}
+
 wo_status wo_input_make_linear(wo_input *input, wo_input_picture *p, wo_error *error)
 {
     if (p->linear)
@@ -113,6 +133,7 @@ wo_status wo_input_make_linear(wo_input *input, wo_input_picture *p, wo_error *e
     if (!input->raw)
         WO_TRY(wo_picture_linear(input->inputs->colour, &p->file->parts[p->part], input->space,
                                  &p->image, error));
+    WO_TRY(fit(input, p, error));
     p->linear = true;
     return WO_OK;
 }
@@ -209,10 +230,31 @@ static wo_status choose_space(wo_input *input, int frame, wo_error *error)
 int wo_input_stand_in(const wo_input *input, int frame)
 {
     wo_sequence there;
-    if (!input->sequence || !input->clip->temporal || wo_picture_exists(input->pattern, frame) ||
+    const wo_missing_frames missing = input->inputs->missing;
+    if (!input->sequence || (!input->clip->temporal && missing == WO_MISSING_ERROR) ||
+        wo_picture_exists(input->pattern, frame) ||
         !wo_sequence_look(input->pattern, frame, &there))
         return frame;
-    return there.nearest;
+    return missing == WO_MISSING_HOLD ? there.held : there.nearest;
+}
+
+/* Depth of a file that shows a colour by itself. */
+static wo_status find_depth(wo_input *input, int frame, wo_error *error)
+{
+    char path[PATH_MAX], channel[256];
+    wo_io_file *file = NULL;
+    if (!wo_is_depth_clip(input->clip->name) ||
+        wo_io_frame_path(input->pattern, frame, path, sizeof path, NULL) != WO_OK ||
+        wo_io_read(path, true, &file, NULL) != WO_OK)
+        return WO_OK; /* reading its pixels will say why */
+    input->found = wo_depth_channel(file, input->channels, channel, sizeof channel);
+    wo_io_file_destroy(&file);
+    if (!input->found)
+        return WO_OK;
+    free(input->channels);
+    input->channels = strdup(channel);
+    return input->channels ? WO_OK
+                           : wo_fail(error, WO_ERR_NOMEM, "out of memory for channel names");
 }
 
 static wo_status fill_input(wo_input *input, const char *spec, int frame, wo_error *error)
@@ -222,6 +264,7 @@ static wo_status fill_input(wo_input *input, const char *spec, int frame, wo_err
     WO_TRY(wo_picture_split(spec, frame, &input->pattern, &input->channels, error));
     input->sequence = wo_io_is_sequence(input->pattern);
     const int shown = wo_input_stand_in(input, frame);
+    WO_TRY(find_depth(input, shown, error));
     WO_TRY(wo_input_fetch(input, shown, &first, error));
     input->first = input->last = shown;
     if (input->sequence && wo_sequence_look(input->pattern, shown, &there)) {
@@ -280,8 +323,9 @@ static wo_status prepare_all(wo_inputs *inputs, int frame, wo_error *error)
     for (size_t i = 0; i < inputs->count; i++) {
         wo_input *const input = inputs->clips[i];
         wo_input_picture *p;
-        drop_others(input, frame);
-        WO_TRY(wo_input_fetch(input, wo_input_stand_in(input, frame), &p, error));
+        const int shown = wo_input_stand_in(input, frame);
+        drop_others(input, shown);
+        WO_TRY(wo_input_fetch(input, shown, &p, error));
         input->missed = input->given = false;
         input->present = p;
         WO_TRY(wo_input_make_linear(input, p, error));
@@ -296,6 +340,43 @@ wo_status wo_inputs_prepare(wo_inputs *inputs, int frame, wo_error *error)
     files_close(inputs);
     pthread_mutex_unlock(&inputs->lock);
     return status;
+}
+
+void wo_inputs_set_missing(wo_inputs *inputs, wo_missing_frames missing)
+{
+    inputs->missing = missing;
+}
+
+void wo_inputs_fit(wo_inputs *inputs, const wo_input *main, const wo_project_pixels *pixels)
+{
+    inputs->main = main;
+    inputs->pixels = *pixels;
+}
+
+const wo_input *wo_inputs_missing(const wo_inputs *inputs, int frame)
+{
+    for (size_t i = 0; i < inputs->count; i++) {
+        const wo_input *const input = inputs->clips[i];
+        if (input->sequence && !input->clip->temporal && !wo_picture_exists(input->pattern, frame))
+            return input;
+    }
+    return NULL;
+}
+
+bool wo_input_is_held(const wo_input *input, int frame, int *held)
+{
+    *held = input->present->frame;
+    return input->sequence && input->inputs->missing == WO_MISSING_HOLD && *held != frame;
+}
+
+const char *wo_input_found(const wo_input *input)
+{
+    return input->found ? input->channels : NULL;
+}
+
+bool wo_input_is_coloured_depth(const wo_input *input)
+{
+    return wo_is_depth_clip(input->clip->name) && wo_is_coloured(&input->present->image);
 }
 
 const char *wo_input_clip(const wo_input *input)

@@ -6,11 +6,19 @@
 #include "bridge/colour.h"
 #include "bridge/image_io.h"
 #include "host/host.h"
+#include "picture_fit.h"
 
 /* The clips of a render: files, or sequences of them, as sources of a host. A clip holds the
    picture of the frame that is rendered; a clip that looks at other frames holds a few more. */
 
 #define WO_INPUTS_MAX 32 /* clips of one render */
+
+/* What becomes of a frame that is not on the disk. */
+typedef enum wo_missing_frames {
+    WO_MISSING_ERROR,
+    WO_MISSING_SKIP, /* the caller leaves it out */
+    WO_MISSING_HOLD  /* the last one before it stands in its place, before the first the first */
+} wo_missing_frames;
 
 /* OpenFX names of what plugins are given. */
 #define WO_OFX_SPACE_WORKING "ofx_scene_linear"
@@ -25,6 +33,13 @@ WO_NODISCARD wo_status wo_inputs_create(wo_colour *colour, const char *in_space,
                                         wo_error *error);
 void wo_inputs_destroy(wo_inputs **inputs);
 
+/* Before clips are added; WO_MISSING_ERROR otherwise. */
+void wo_inputs_set_missing(wo_inputs *inputs, wo_missing_frames missing);
+
+/* From now on all clips but main come on these pixels; otherwise each on its own. Before
+   wo_inputs_prepare. */
+void wo_inputs_fit(wo_inputs *inputs, const wo_input *main, const wo_project_pixels *pixels);
+
 /* Adds a clip from "FILE[:CHANNELS]" and reads it at frame. clip is borrowed as long as inputs
    live. */
 WO_NODISCARD wo_status wo_inputs_add(wo_inputs *inputs, const wo_host_clip_info *clip,
@@ -37,6 +52,19 @@ wo_input *wo_inputs_at(const wo_inputs *inputs, size_t index);
 /* Makes the pictures of one frame ready, drops what no clip needs any more. Fails when a file of
    this frame is missing or damaged; a clip that looks at other frames need not have this one. */
 WO_NODISCARD wo_status wo_inputs_prepare(wo_inputs *inputs, int frame, wo_error *error);
+
+/* The first clip that a frame is missing of, and that does not look at others; or NULL. */
+const wo_input *wo_inputs_missing(const wo_inputs *inputs, int frame);
+
+/* Is the present picture that of another frame, which is held? */
+bool wo_input_is_held(const wo_input *input, int frame, int *held);
+
+/* The channel that was found for a clip of depth whose words show a colour; NULL: the words are
+   taken as given. */
+const char *wo_input_found(const wo_input *input);
+
+/* Does the present picture of a clip of depth show colours, of which one at most is depth? */
+bool wo_input_is_coloured_depth(const wo_input *input);
 
 /* What a clip is. */
 const char *wo_input_clip(const wo_input *input);

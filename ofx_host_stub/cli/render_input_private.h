@@ -27,6 +27,7 @@ struct wo_input {
     const wo_host_clip_info *clip;
     char *pattern;
     char *channels;
+    bool found; /* channels are what was found for depth, not what was given */
     char *space;
     bool sequence;
     int first, last; /* frames of a sequence that are on the disk */
@@ -48,7 +49,10 @@ typedef struct wo_open_file {
 struct wo_inputs {
     wo_colour *colour;
     const char *in_space;
-    const char *own;      /* parameters set by hand; NULL = no metadata is passed on */
+    const char *own; /* parameters set by hand; NULL = no metadata is passed on */
+    wo_missing_frames missing;
+    const wo_input *main; /* the others come on its pixels; NULL = each on its own */
+    wo_project_pixels pixels;
     pthread_mutex_t lock; /* guards all below once a render runs */
     wo_input *clips[WO_INPUTS_MAX];
     size_t count;
@@ -63,8 +67,11 @@ WO_NODISCARD wo_status wo_input_fetch(wo_input *input, int frame, wo_input_pictu
                                       wo_error *error);
 WO_NODISCARD wo_status wo_input_make_linear(wo_input *input, wo_input_picture *p, wo_error *error);
 
-/* A clip that is looked at elsewhere, too, need not have the frame that is rendered: its nearest
-   one then stands for what is the same in all. */
+/* The frame whose picture is taken for this one. A clip that is looked at elsewhere, too, need not
+   have the frame that is rendered: its nearest one then stands for what is the same in all. */
 int wo_input_stand_in(const wo_input *input, int frame);
+
+/* Pixel aspect of a picture that wo_input_make_linear made. */
+double wo_input_aspect(const wo_input *input, const wo_input_picture *p);
 
 #endif

@@ -6,8 +6,10 @@
 
 #include <limits.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <time.h>
 
 double wo_seconds(void)
@@ -158,13 +160,72 @@ static wo_status render_image(wo_render_job *job, wo_frame_record *frame, wo_ima
     return status;
 }
 
+/* A frame that is missing of a clip. */
+static wo_status note_missing(wo_render_job *job, wo_error *error, const char *format, ...)
+{
+    char text[512];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(text, sizeof text, format, list);
+    va_end(list);
+    if (!wo_record_add_warning(&job->record, "missing-frame", text))
+        return wo_fail(error, WO_ERR_NOMEM, "out of memory for the report");
+    tell_warnings(job);
+    return WO_OK;
+}
+
+static wo_status note_held(wo_render_job *job, int frame, wo_error *error)
+{
+    for (size_t i = 0; wo_inputs_at(job->inputs, i); i++) {
+        const wo_input *const input = wo_inputs_at(job->inputs, i);
+        int held;
+        if (wo_input_is_held(input, frame, &held))
+            WO_TRY(note_missing(job, error,
+                                "clip %s: %.300s has no frame %d, frame %d stands in its place",
+                                wo_input_clip(input), wo_input_file(input), frame, held));
+    }
+    return WO_OK;
+}
+
+/* Colours that are read as depth, unless their channel was chosen. */
+static wo_status note_colours(wo_render_job *job, wo_error *error)
+{
+    char channel[32] = "", text[512];
+    if (wo_host_param_get_text(job->instance, "depthChannel", 0, channel, sizeof channel) < 0 ||
+        strcasecmp(channel, "red") != 0)
+        return WO_OK;
+    for (size_t i = 0; wo_inputs_at(job->inputs, i); i++) {
+        const wo_input *const input = wo_inputs_at(job->inputs, i);
+        if (!wo_input_is_coloured_depth(input))
+            continue;
+        snprintf(text, sizeof text,
+                 "clip %s: %.300s shows colours, of which the first is read as depth; name the "
+                 "channel that holds it, as in --clip %s=FILE:Z",
+                 wo_input_clip(input), wo_input_file(input), wo_input_clip(input));
+        if (!wo_record_warn(&job->record, "depth-colour", text))
+            return wo_fail(error, WO_ERR_NOMEM, "out of memory for the report");
+    }
+    tell_warnings(job);
+    return WO_OK;
+}
+
 static wo_status render_frame(wo_render_job *job, wo_frame_record *frame, wo_error *error)
 {
     const double start = wo_seconds();
+    const wo_input *const absent =
+        job->missing == WO_MISSING_SKIP ? wo_inputs_missing(job->inputs, frame->frame) : NULL;
+    if (absent) {
+        frame->skipped = true;
+        return note_missing(job, error, "clip %s: %.300s has no frame %d, which is left out",
+                            wo_input_clip(absent), wo_input_file(absent), frame->frame);
+    }
     WO_TRY(wo_inputs_prepare(job->inputs, frame->frame, error));
-    if (job->frame_index == 0)
+    WO_TRY(note_held(job, frame->frame, error));
+    if (!job->record.plugin) {
         wo_camera_tell(job);
-    if (job->frame_index == 0 && !wo_record_begin(&job->record, job->instance, frame->frame))
+        WO_TRY(note_colours(job, error));
+    }
+    if (!job->record.plugin && !wo_record_begin(&job->record, job->instance, frame->frame))
         return wo_fail(error, WO_ERR_NOMEM, "out of memory for the report");
     frame->read_seconds = wo_seconds() - start + job->opening_seconds;
     job->opening_seconds = 0;
@@ -189,6 +250,7 @@ wo_status wo_render_frames(wo_render_job *job, wo_error *error)
     const bool json = wo_args_count(job->args, "--json") > 0;
     const double start = wo_seconds();
     wo_status status = WO_OK;
+    bool any = false;
     for (size_t i = 0; i < job->frames.count && status == WO_OK; i++) {
         wo_frame_record *const frame = wo_record_next(&job->record, job->frames.numbers[i]);
         if (!frame)
@@ -196,11 +258,16 @@ wo_status wo_render_frames(wo_render_job *job, wo_error *error)
         job->frame_index = i;
         status = wo_interrupted(NULL) ? wo_fail(error, WO_ABORTED, "interrupted")
                                       : render_frame(job, frame, error);
-        if (status == WO_OK && !job->explain)
+        if (status == WO_OK && frame->skipped)
+            ;
+        else if (status == WO_OK && !job->explain)
             tell_frame(frame);
         else if (status == WO_OK && !json)
             tell_plan(job, frame);
+        any = any || !frame->skipped;
         job->record.seconds = wo_seconds() - start;
     }
-    return status;
+    return status == WO_OK && !any
+               ? wo_fail(error, WO_ERR_NOT_FOUND, "no frame was rendered: none has all its files")
+               : status;
 }

@@ -21,6 +21,8 @@ typedef struct wo_render_job {
     wo_output output;
     wo_rect project; /* display window at full size, pixels */
     double pixel_aspect;
+    wo_clip_size clip_size;
+    wo_missing_frames missing;
     bool explain;
     bool metadata; /* plugins see the attributes of the files */
     char own[128]; /* parameters of the camera that --set names */

@@ -16,8 +16,9 @@ static void choose_project(wo_render_job *job, const wo_input *main)
 {
     const wo_io_part *const header = wo_input_header(main);
     job->project = header->display_window;
-    job->pixel_aspect =
-        isfinite(header->pixel_aspect) && header->pixel_aspect > 0 ? header->pixel_aspect : 1;
+    job->pixel_aspect = wo_part_aspect(header);
+    wo_inputs_fit(job->inputs, main,
+                  &(wo_project_pixels){job->project, job->pixel_aspect, job->clip_size});
 }
 
 static wo_status connect_clip(wo_render_job *job, const wo_host_project *project, wo_input *input,

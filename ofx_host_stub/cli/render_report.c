@@ -42,11 +42,8 @@ wo_frame_record *wo_record_next(wo_record *record, int frame)
     return next;
 }
 
-bool wo_record_warn(wo_record *record, const char *key, const char *text)
+bool wo_record_add_warning(wo_record *record, const char *key, const char *text)
 {
-    for (size_t i = 0; i < record->warning_count; i++)
-        if (strcmp(record->warnings[i].key, key) == 0)
-            return true;
     wo_warning_record *const warnings =
         realloc(record->warnings, (record->warning_count + 1) * sizeof *warnings);
     if (!warnings)
@@ -64,6 +61,14 @@ bool wo_record_warn(wo_record *record, const char *key, const char *text)
     }
     record->warning_count++;
     return true;
+}
+
+bool wo_record_warn(wo_record *record, const char *key, const char *text)
+{
+    for (size_t i = 0; i < record->warning_count; i++)
+        if (strcmp(record->warnings[i].key, key) == 0)
+            return true;
+    return wo_record_add_warning(record, key, text);
 }
 
 /* "KEY: TEXT" */
@@ -149,6 +154,7 @@ static void write_frame(wo_json *json, const wo_frame_record *frame)
     wo_json_object(json, NULL);
     wo_json_integer(json, "frame", frame->frame);
     wo_json_text(json, "output", frame->output);
+    wo_json_bool(json, "skipped", frame->skipped);
     const wo_rect w = frame->window;
     wo_json_numbers(json, "window", (const double[]){w.x1, w.y1, w.x2, w.y2}, 4);
     wo_json_text(json, "identity", frame->identity ? frame->identity_clip : NULL);

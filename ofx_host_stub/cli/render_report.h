@@ -11,18 +11,20 @@
 
    {"wideopen": version, "plugin", "version", "context", "threads",
     "clips": {name: {"file", "space"}}, "params": {name: text}, "keys": {name: count},
-    "frames": [{"frame", "output", "window", "identity", "actions",
+    "frames": [{"frame", "output", "skipped", "window", "identity", "actions",
                 "seconds": {"read", "render", "write"}, "rays", "reports": [...], "plan"}],
     "rays", "seconds", "warnings": [{"frame", "key", "text"}], "violations": [...], "ok", "error"}
 
    params are the values at the first frame, keys those that change over time. reports holds what
    the plugin said of itself, one object for each render action. rays is their sum, null when the
-   plugin reports none. warnings holds the first of each key. */
+   plugin reports none. warnings holds the plugin's first
+   of each key. */
 
 typedef struct wo_frame_record {
     int frame;
     char *output; /* name of the file, NULL when none was written */
     wo_rect window;
+    bool skipped; /* left out: a file of it is missing */
     bool identity;
     char identity_clip[64];
     unsigned actions;
@@ -68,6 +70,9 @@ bool wo_record_publish(wo_record *record, const char *kind, const char *text);
 /* Keeps a warning about the latest frame, if it is the first one of its key; false without memory.
  */
 bool wo_record_warn(wo_record *record, const char *key, const char *text);
+
+/* Keeps a warning about the latest frame; false without memory. */
+bool wo_record_add_warning(wo_record *record, const char *key, const char *text);
 
 void wo_record_free(wo_record *record);
 

@@ -57,10 +57,11 @@ void wo_input_metadata(const wo_input *input, wo_host_add_metadata *add, void *t
 
 /* ------------------------------------------------------------------------------ the host's side */
 
-static double aspect_of(const wo_input_picture *p)
+double wo_input_aspect(const wo_input *input, const wo_input_picture *p)
 {
-    const double aspect = p->file->parts[p->part].pixel_aspect;
-    return isfinite(aspect) && aspect > 0 ? aspect : 1;
+    const wo_inputs *const inputs = input->inputs;
+    return inputs->main && input != inputs->main ? inputs->pixels.aspect
+                                                 : wo_part_aspect(&p->file->parts[p->part]);
 }
 
 static int frame_at(double time)
@@ -70,7 +71,8 @@ static int frame_at(double time)
 
 static bool is_missing(const wo_input *input, int frame)
 {
-    return input->sequence && !wo_picture_exists(input->pattern, frame);
+    return input->inputs->missing != WO_MISSING_HOLD && input->sequence &&
+           !wo_picture_exists(input->pattern, frame);
 }
 
 /* Within the sequence: its first frame, its last, or between them. */
@@ -87,6 +89,8 @@ static wo_status picture_at(wo_input *input, int frame, wo_input_picture **p, wo
         return wo_fail(error, is_gap(input, frame) ? WO_ERR_IO : WO_ERR_NOT_FOUND,
                        "%s has no frame %d; its frames are %d to %d", input->pattern, frame,
                        input->first, input->last);
+    if (input->inputs->missing == WO_MISSING_HOLD)
+        frame = wo_input_stand_in(input, frame);
     WO_TRY(wo_input_fetch(input, frame, p, error));
     return wo_input_make_linear(input, *p, error);
 }
@@ -104,7 +108,7 @@ static wo_status host_region(void *user, double time, wo_host_region *region, wo
     input->missed |= status == WO_ERR_NOT_FOUND;
     if (status == WO_OK) {
         const wo_rect b = p->image.bounds;
-        const double aspect = aspect_of(p);
+        const double aspect = wo_input_aspect(input, p);
         *region = (wo_host_region){b.x1 * aspect, b.y1, b.x2 * aspect, b.y2};
     }
     pthread_mutex_unlock(&input->inputs->lock);
@@ -121,7 +125,7 @@ static wo_status host_pixels(void *user, const wo_host_request *request, const w
     if (status == WO_OK) {
         input->given = true;
         wo_host_still still = {
-            .image = p->image, .pixel_aspect = aspect_of(p), .nearest = input->raw};
+            .image = p->image, .pixel_aspect = wo_input_aspect(input, p), .nearest = input->raw};
         status = wo_host_still_pixels(&still, request, image, error);
     }
     pthread_mutex_unlock(&input->inputs->lock);
@@ -195,7 +199,7 @@ wo_host_source wo_input_source(wo_input *input, const wo_host_project *project)
     if (!input->raw && source.components == 1)
         source.components = 3; /* what make_linear gives */
     source.alpha = source.components == 4 ? WO_HOST_PREMULTIPLIED : WO_HOST_OPAQUE;
-    source.pixel_aspect = aspect_of(input->present);
+    source.pixel_aspect = wo_input_aspect(input, input->present);
     source.frame_rate = rate_of(input->present, project->frame_rate);
     source.first_frame = input->sequence ? input->first : project->first_frame;
     source.last_frame = input->sequence ? input->last : project->last_frame;

@@ -70,13 +70,15 @@ static bool frame_of(const char *part, size_t place, const char *name, int *fram
 static void take(wo_sequence *found, bool any, int frame, int near)
 {
     if (!any) {
-        *found = (wo_sequence){frame, frame, frame};
+        *found = (wo_sequence){frame, frame, frame, frame};
         return;
     }
     const long long distance = llabs((long long)frame - near);
     const long long best = llabs((long long)found->nearest - near);
     if (distance < best || (distance == best && frame < found->nearest))
         found->nearest = frame;
+    if (found->held > near ? frame < found->held : frame <= near && frame > found->held)
+        found->held = frame;
     found->first = frame < found->first ? frame : found->first;
     found->last = frame > found->last ? frame : found->last;
 }

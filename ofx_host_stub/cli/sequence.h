@@ -10,6 +10,7 @@
 typedef struct wo_sequence {
     int first, last;
     int nearest; /* to the frame that was asked for; the earlier of two */
+    int held;    /* the last one up to it, or the first of all */
 } wo_sequence;
 
 /* pattern as wo_io_frame_path takes it. false: it has no mark, or there is no such file. */

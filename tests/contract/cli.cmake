@@ -31,6 +31,15 @@ add_test(NAME contract.camera
             ${CMAKE_CURRENT_BINARY_DIR}/camera_work)
 set_tests_properties(contract.camera PROPERTIES TIMEOUT 600 ENVIRONMENT "${cli_environment}")
 
+# Clips that do not go together, and depth that is none.
+add_executable(exr_change ${CMAKE_CURRENT_LIST_DIR}/exr_change.c)
+target_include_directories(exr_change PRIVATE ${PROJECT_SOURCE_DIR}/ofx_host_stub)
+target_link_libraries(exr_change PRIVATE wo_bridge wo_base wo_options m)
+add_test(NAME contract.clips
+    COMMAND ${CMAKE_CURRENT_LIST_DIR}/clips.sh $<TARGET_FILE:wideopen> $<TARGET_FILE:json_check>
+            ${CMAKE_CURRENT_BINARY_DIR}/clips_work $<TARGET_FILE:exr_change>)
+set_tests_properties(contract.clips PROPERTIES TIMEOUT 300 ENVIRONMENT "${cli_environment}")
+
 # Times, with a plugin that looks at other frames.
 add_test(NAME contract.frames
     COMMAND ${CMAKE_CURRENT_LIST_DIR}/frames.sh $<TARGET_FILE:wideopen> $<TARGET_FILE:json_check>

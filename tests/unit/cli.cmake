@@ -31,3 +31,20 @@ target_compile_definitions(test_bench PRIVATE _POSIX_C_SOURCE=200809L)
 target_include_directories(test_bench PRIVATE ${PROJECT_SOURCE_DIR})
 target_link_libraries(test_bench PRIVATE wo_base wo_options cmocka m)
 add_test(NAME unit.bench COMMAND test_bench)
+
+# Clips of another size and pixel aspect.
+add_executable(test_picture_fit ${CMAKE_CURRENT_LIST_DIR}/test_picture_fit.c ${cli}/picture_fit.c)
+target_compile_definitions(test_picture_fit PRIVATE _POSIX_C_SOURCE=200809L)
+target_include_directories(test_picture_fit PRIVATE
+    ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/ofx_host_stub)
+target_link_libraries(test_picture_fit PRIVATE wo_base wo_options cmocka m)
+add_test(NAME unit.picture_fit COMMAND test_picture_fit)
+
+# Where a file keeps its depth.
+add_executable(test_depth_channel ${CMAKE_CURRENT_LIST_DIR}/test_depth_channel.c
+    ${cli}/depth_channel.c)
+target_compile_definitions(test_depth_channel PRIVATE _DEFAULT_SOURCE)
+target_include_directories(test_depth_channel PRIVATE
+    ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/ofx_host_stub)
+target_link_libraries(test_depth_channel PRIVATE wo_bridge wo_base wo_options cmocka m)
+add_test(NAME unit.depth_channel COMMAND test_depth_channel)
