@@ -13,7 +13,7 @@
 #define MANY 0.2
 /* All but the noise. */
 #define ALL 0.999
-/* Part of the pixels that depth at least covers. */
+/* Part of the pixels with something in them that depth at least covers. */
 #define COVERED 0.75
 /* Whole numbers below this are kept by floats of 16 bits, too, which above it know no others. */
 #define WHOLE_BELOW 1024
@@ -343,13 +343,26 @@ static void warn(const check_job *job, const facts *f, const char *name, wo_repo
     }
 }
 
+/* Where a layer shows nothing no depth is missing: data windows of layers are often cut. */
+static bool is_covered(const wo_sheet_source *source, wo_rect window, wo_rect inside)
+{
+    int64_t shown = 0, covered = 0;
+    if (wo_rect_contains(inside, window))
+        return true;
+    for (int32_t y = window.y1; y < window.y2; y++)
+        for (int32_t x = window.x1; x < window.x2; x++) {
+            const bool here = shows(source, x, y);
+            shown += here;
+            covered += here && x >= inside.x1 && x < inside.x2 && y >= inside.y1 && y < inside.y2;
+        }
+    return (double)covered >= COVERED * (double)shown;
+}
+
 static void check_size(const wo_sheet_source *source, wo_rect window, wo_rect inside,
                        const char *name, wo_report *report)
 {
-    const double whole = (double)wo_rect_width(window) * wo_rect_height(window);
-    const double part = (double)wo_rect_width(inside) * wo_rect_height(inside);
     const wo_rect b = source->depth->bounds;
-    if (wo_rect_empty(inside) || part < COVERED * whole)
+    if (!is_covered(source, window, inside))
         wo_report_warn(report, "depth-size",
                        "%s: the depth covers %d,%d .. %d,%d of %d,%d .. %d,%d px; beyond, its edge "
                        "is repeated",

@@ -303,12 +303,16 @@ static wo_status prepare(set *s, const char *folder, wo_error *error)
     WO_TRY(wo_bench_add_clips(s->inputs, job->context, folder, shot->layers, &shot->given, error));
     if (shot->given == 0)
         return WO_OK;
+    const wo_input *const source_clip = wo_inputs_find(s->inputs, "Source");
+    const wo_project_pixels pixels = {.window = wo_input_header(source_clip)->display_window,
+                                      .aspect = wo_part_aspect(wo_input_header(source_clip))};
+    wo_inputs_fit(s->inputs, source_clip, &pixels);
     WO_TRY(wo_inputs_prepare(s->inputs, 1, error));
     WO_TRY(wo_bench_reference(job->colour, folder, &s->reference, &shot->noise, error));
     const wo_rect frame = s->reference.bounds;
     shot->width = wo_rect_width(frame);
     shot->height = wo_rect_height(frame);
-    const wo_io_part *const header = wo_input_header(wo_inputs_find(s->inputs, "Source"));
+    const wo_io_part *const header = wo_input_header(source_clip);
     const wo_rect format = header->display_window;
     wo_host_project project = WO_HOST_PROJECT_INIT;
     project.size[0] = wo_rect_width(format);

@@ -149,7 +149,8 @@ wo_status wo_picture_fit(const wo_project_pixels *project, const wo_io_part *par
     if (!same && project->size == WO_CLIP_SIZE_ERROR)
         return wo_fail(error, WO_ERR_RANGE,
                        "%d x %d px of aspect %g, but Source has %d x %d of aspect %g: give it the "
-                       "same size, or say --clip-size scale, or keep to leave it where it lies",
+                       "same size, or let render scale it (--clip-size scale) or leave it where it "
+                       "lies (keep)",
                        wo_rect_width(d), wo_rect_height(d), aspect, wo_rect_width(p),
                        wo_rect_height(p), project->aspect);
     if (!same && project->size == WO_CLIP_SIZE_SCALE) {

@@ -83,6 +83,17 @@ change $scene millions.exr times=1e6
 blur 0 $scene millions.exr:depth far.exr
 says 'warning: Depth: all depth .* farther than 100 km'
 
+# An estimate of 0..1 in a file of 8 bits, grey in three channels.
+{
+    printf 'P6\n96 64\n255\n'
+    LC_ALL=C awk 'BEGIN { for (i = 0; i < 96 * 64; i++) { v = 1 + int(i / 50); printf "%c%c%c", v, v, v } }'
+} >estimate.ppm
+blur 0 $scene estimate.ppm far.exr
+says 'warning: Depth: .* in steps of a file of whole numbers'
+says 'depthMode=normalised'
+blur 0 $scene estimate.ppm far.exr --set depthMode=inverse
+quiet
+
 # Each kind is told once, however many frames.
 cp $scene in.0001.exr
 cp $scene in.0002.exr

@@ -299,6 +299,18 @@ static void depth_that_ends_early_is_told(void **state)
             assert_string_equal(report.warnings[0].key, "depth-size");
         picture_free(&depth);
     }
+    /* A layer that is cut in the same way misses nothing. */
+    wo_image depth = picture_make((wo_rect){5, 5, 25, 25}, 1);
+    wo_report report = {.pixels = 0};
+    picture_fill(&depth, (const float[1]){3});
+    picture_fill(&colour, (const float[4]){0, 0, 0, 0});
+    for (int32_t y = 5; y < 25; y++)
+        for (int32_t x = 5; x < 25; x++)
+            wo_image_at(&colour, x, y)[3] = 1;
+    const wo_sheet_source source = {.colour = &colour, .depth = &depth, .reading = AS(DISTANCE, 1)};
+    assert_int_equal(wo_depth_check(&plain, &source, frame, "Depth2", true, &report, NULL), WO_OK);
+    assert_int_equal(report.warning_count, 0);
+    picture_free(&depth);
     picture_free(&colour);
 }
 
