@@ -3,6 +3,7 @@
 #ifndef WO_BRIDGE_COLOUR_H
 #define WO_BRIDGE_COLOUR_H
 
+#include "colour_standard.h"
 #include "wideopen/image.h"
 
 #ifdef __cplusplus
@@ -29,25 +30,56 @@ const char *wo_colour_origin(const wo_colour *colour);
 size_t wo_colour_count(const wo_colour *colour);
 const char *wo_colour_name(const wo_colour *colour, size_t index);
 
-/* Colour space of an image file: what the file says of itself (wo_io_part.colour_space) if the
-   configuration knows that name, else by the configuration's file rules. says may be NULL or "".
-   The file need not exist. */
+/* The configuration's name of what goes by this word: one of its own names, aliases or roles, else
+   what a standard calls it (colour_standard.h: "lin_ap1_scene" is ACEScg in an ACES configuration);
+   "linear" is the working space. false when there is none. */
+bool wo_colour_find(const wo_colour *colour, const char *word, char *name, size_t size);
+
+/* Which standard space this is, by its name and aliases; NULL when it is none that is known. */
+const wo_colour_standard *wo_colour_standard_of(const wo_colour *colour, const char *name);
+
+/* Why a file is in a colour space. */
+typedef enum wo_colour_ground {
+    WO_COLOUR_TOLD,   /* it says so */
+    WO_COLOUR_RULE,   /* a rule of the configuration for its name, other than the default */
+    WO_COLOUR_ASSUMED /* what files of its format hold, else the configuration's default */
+} wo_colour_ground;
+
+/* What a file says of its colours (colour_label.h collects that from one). */
+typedef struct wo_colour_words {
+    const char *words[8]; /* NULL ends them; the first the configuration knows counts */
+    bool has_primaries;
+    float primaries[8]; /* of linear light, as in wo_colour_standard */
+} wo_colour_words;
+
+/* Colour space of an image file, read or about to be written: what it says of itself, else the
+   configuration's rule for its name, else what its format holds, else the default rule. Says is
+   NULL or what the file says: a word that only repeats what every file of the format is taken for
+   is nothing said, nor are primaries of Rec.709 in EXR, which are those of files without them. A
+   default rule that gives data leaves EXR and HDR scene-linear. Reading and writing both ask this
+   one function. The file need not exist. ground may be NULL. */
 WO_NODISCARD wo_status wo_colour_of_file(const wo_colour *colour, const char *path,
-                                         const char *says, char *name, size_t size,
-                                         wo_error *error);
+                                         const wo_colour_words *says, char *name, size_t size,
+                                         wo_colour_ground *ground, wo_error *error);
 
 /* Does the space hold numbers that are no colour? Unknown names do not. */
 bool wo_colour_is_data(const wo_colour *colour, const char *name);
 
-/* Converts in place. 4 components are taken as premultiplied: where alpha is neither 0 nor 1 the
-   colour is divided by it, converted and multiplied again; alpha itself never changes, and
-   colour of alpha 0 (light that adds) is converted as it is. 1 component is never converted, nor
-   is anything to or from a data space. Values are neither clipped nor limited beyond what the
-   configuration does; NaN stays NaN. */
+/* Are both names of one space? Unknown names are not. */
+bool wo_colour_is_same(const wo_colour *colour, const char *a, const char *b);
+
+/* Converts in place; alpha itself never changes. 4 components are taken as multiplied by alpha. A
+   linear conversion needs no regard for that. Encoded colour is divided by alpha, converted and
+   multiplied again where code 0 is no light; where it is not (log), codes cannot have been
+   multiplied, and they are converted as they are. The divisor is alpha or the largest code, up to
+   1, if that is more: soft alpha under brighter colour never takes codes beyond 1, where curves
+   run away, and the way back is the same. Colour of alpha 0 (light that adds) is converted as it
+   is. 1 component is never converted, nor is anything to or from a data space. Values are neither
+   clipped nor limited beyond what the configuration does; NaN stays NaN. */
 WO_NODISCARD wo_status wo_colour_convert(const wo_colour *colour, const char *from, const char *to,
                                          wo_image *image, wo_error *error);
 
-/* The same with colour that is not multiplied by alpha. */
+/* The same with colour that is not multiplied by alpha, or no encoded colour that is. */
 WO_NODISCARD wo_status wo_colour_convert_straight(const wo_colour *colour, const char *from,
                                                   const char *to, wo_image *image, wo_error *error);
 

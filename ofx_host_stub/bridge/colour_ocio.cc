@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
 #include "colour.h"
+#include "colour_apply.hh"
 #include "guard.hh"
+#include "image_io.h"
 #include "own_config.hh"
 
 #include <OpenColorIO/OpenColorIO.h>
@@ -82,7 +84,19 @@ wo_status create(const char *config, wo_colour **colour, wo_error *error)
     return WO_OK;
 }
 
-/* Finds a colour space by name, alias or role. */
+/* What the configuration calls a standard space, or nothing. */
+OCIO::ConstColorSpaceRcPtr find_standard(const OCIO::Config &config,
+                                         const wo_colour_standard &standard)
+{
+    OCIO::ConstColorSpaceRcPtr space;
+    if (*standard.id)
+        space = config.getColorSpace(standard.id);
+    for (size_t i = 0; !space && i < WO_COUNT(standard.names) && standard.names[i]; i++)
+        space = config.getColorSpace(standard.names[i]);
+    return space;
+}
+
+/* Finds a colour space by name, alias, role or standard. */
 wo_status find_space(const wo_colour *colour, const char *name, OCIO::ConstColorSpaceRcPtr *space,
                      wo_error *error)
 {
@@ -91,47 +105,13 @@ wo_status find_space(const wo_colour *colour, const char *name, OCIO::ConstColor
     *space = colour->config->getColorSpace(name);
     if (*space)
         return WO_OK;
+    const wo_colour_standard *const standard = wo_colour_standard_named(name);
+    if (standard)
+        *space = find_standard(*colour->config, *standard);
+    if (*space)
+        return WO_OK;
     return wo_fail(error, WO_ERR_NOT_FOUND, "no colour space '%.40s'; there are: %s", name,
                    joined(colour->names).c_str());
-}
-
-/* Alpha a pixel's colour is divided by; 1 where it is left alone. */
-float divisor(float alpha)
-{
-    return alpha > 0 ? alpha : 1.0f;
-}
-
-/* Row by row, so that views with padded or upside-down rows work in place. The processor may touch
-   alpha (a 4 x 4 matrix can), so that is put back. */
-void apply(const OCIO::ConstCPUProcessorRcPtr &processor, wo_image *image, bool premultiplied)
-{
-    const int width = wo_rect_width(image->bounds), components = image->components;
-    const bool alpha = components == 4;
-    std::vector<float> alphas(alpha ? static_cast<size_t>(width) : 0);
-    for (int32_t y = image->bounds.y1; y < image->bounds.y2; y++) {
-        float *const row = wo_image_at(image, image->bounds.x1, y);
-        for (size_t x = 0; x < alphas.size(); x++) {
-            float *const pixel = row + 4 * x;
-            alphas[x] = pixel[3];
-            for (int c = 0; premultiplied && c < 3; c++)
-                pixel[c] /= divisor(alphas[x]);
-        }
-        OCIO::PackedImageDesc desc(row, width, 1, components);
-        processor->apply(desc);
-        for (size_t x = 0; x < alphas.size(); x++) {
-            float *const pixel = row + 4 * x;
-            pixel[3] = alphas[x];
-            for (int c = 0; premultiplied && c < 3; c++)
-                pixel[c] *= divisor(alphas[x]);
-        }
-    }
-}
-
-/* The library's default takes short cuts in powers and logarithms that cost 1e-5 and more. */
-OCIO::ConstCPUProcessorRcPtr exact(const OCIO::ConstProcessorRcPtr &processor)
-{
-    return processor->getOptimizedCPUProcessor(OCIO::BIT_DEPTH_F32, OCIO::BIT_DEPTH_F32,
-                                               OCIO::OPTIMIZATION_LOSSLESS);
 }
 
 wo_status check_image(const wo_image *image, wo_error *error)
@@ -149,9 +129,16 @@ wo_status convert(const wo_colour *colour, const char *from, const char *to, wo_
     WO_TRY(find_space(colour, to, &target, error));
     if (image->components == 1 || source->isData() || target->isData())
         return WO_OK;
-    const OCIO::ConstProcessorRcPtr processor = colour->config->getProcessor(source, target);
-    if (!processor->isNoOp())
-        apply(exact(processor), image, premultiplied);
+    const OCIO::Config &config = *colour->config;
+    const OCIO::ConstProcessorRcPtr processor = config.getProcessor(source, target);
+    if (processor->isNoOp())
+        return WO_OK;
+    const bool decodes =
+        !wo_is_linear(config.getProcessor(source, config.getColorSpace(WO_COLOUR_WORKING)));
+    wo_apply(processor, image,
+             !premultiplied ? WO_APPLY_PLAIN
+             : decodes      ? WO_APPLY_DECODE
+                            : WO_APPLY_ENCODE);
     return WO_OK;
 }
 
@@ -194,28 +181,81 @@ wo_status show(const wo_colour *colour, const char *from, const char *display, c
     transform->setView(look);
     const OCIO::ConstProcessorRcPtr processor = config.getProcessor(transform);
     if (!processor->isNoOp())
-        apply(exact(processor), image, true);
+        wo_apply(processor, image, WO_APPLY_ENCODE);
     return WO_OK;
 }
 
-wo_status of_file(const wo_colour *colour, const char *path, const char *says, char *name,
-                  size_t size, wo_error *error)
+wo_status put_name(const OCIO::ColorSpace &space, char *name, size_t size, wo_error *error)
 {
-    OCIO::ConstColorSpaceRcPtr space;
-    if (says && *says)
-        space = colour->config->getColorSpace(says);
-    if (!space && says && same_ignoring_case(says, "linear"))
-        space = colour->config->getColorSpace(WO_COLOUR_WORKING);
-    if (!space)
-        space = colour->config->getColorSpace(colour->config->getColorSpaceFromFilepath(path));
-    if (!space)
-        return wo_fail(error, WO_ERR_NOT_FOUND, "%s has no rule for %.100s", colour->origin.c_str(),
-                       path);
-    const int length = std::snprintf(name, size, "%s", space->getName());
+    const int length = std::snprintf(name, size, "%s", space.getName());
     return length >= 0 && static_cast<size_t>(length) < size
                ? WO_OK
                : wo_fail(error, WO_ERR_RANGE, "the name of a colour space is longer than %zu",
                          size);
+}
+
+const wo_colour_standard *standard_of(const OCIO::ColorSpace &space)
+{
+    const wo_colour_standard *found = wo_colour_standard_named(space.getName());
+    for (size_t i = 0; !found && i < space.getNumAliases(); i++)
+        found = wo_colour_standard_named(space.getAlias(i));
+    return found ? found : space.isData() ? wo_colour_standard_named("data") : nullptr;
+}
+
+OCIO::ConstColorSpaceRcPtr space_of_word(const wo_colour *colour, const char *word)
+{
+    OCIO::ConstColorSpaceRcPtr space;
+    if (same_ignoring_case(word, "linear"))
+        return colour->config->getColorSpace(WO_COLOUR_WORKING);
+    (void)find_space(colour, word, &space, nullptr);
+    return space;
+}
+
+/* What the file itself says, or nothing. */
+OCIO::ConstColorSpaceRcPtr space_told(const wo_colour *colour, const char *format_holds,
+                                      const wo_colour_words &says)
+{
+    OCIO::ConstColorSpaceRcPtr space;
+    for (size_t i = 0; i < WO_COUNT(says.words) && says.words[i] && !space; i++)
+        if (*says.words[i] && !same_ignoring_case(says.words[i], format_holds) &&
+            !same_ignoring_case(says.words[i], "unknown"))
+            space = space_of_word(colour, says.words[i]);
+    if (!space && says.has_primaries) {
+        const wo_colour_standard *const standard = wo_colour_standard_by_primaries(says.primaries);
+        if (standard && standard != wo_colour_standard_named("lin_rec709_scene"))
+            space = find_standard(*colour->config, *standard);
+    }
+    return space;
+}
+
+wo_status of_file(const wo_colour *colour, const char *path, const wo_colour_words *says,
+                  char *name, size_t size, wo_colour_ground *ground, wo_error *error)
+{
+    const OCIO::Config &config = *colour->config;
+    const char *const format_holds = wo_io_usual_space(path);
+    const wo_colour_words nothing = {};
+    wo_colour_ground why = WO_COLOUR_TOLD;
+    OCIO::ConstColorSpaceRcPtr space = space_told(colour, format_holds, says ? *says : nothing);
+    if (!space && !config.filepathOnlyMatchesDefaultRule(path)) {
+        why = WO_COLOUR_RULE;
+        space = config.getColorSpace(config.getColorSpaceFromFilepath(path));
+    }
+    if (!space) {
+        const bool linear = same_ignoring_case(format_holds, "linear");
+        why = WO_COLOUR_ASSUMED;
+        if (*format_holds && !linear)
+            space = space_of_word(colour, format_holds);
+        if (!space)
+            space = config.getColorSpace(config.getColorSpaceFromFilepath(path));
+        if (linear && (!space || space->isData()))
+            space = config.getColorSpace(WO_COLOUR_WORKING);
+    }
+    if (ground)
+        *ground = why;
+    if (!space)
+        return wo_fail(error, WO_ERR_NOT_FOUND, "%s has no rule for %.100s", colour->origin.c_str(),
+                       path);
+    return put_name(*space, name, size, error);
 }
 
 } // namespace
@@ -251,11 +291,44 @@ extern "C" const char *wo_colour_name(const wo_colour *colour, size_t index)
     return index < colour->names.size() ? colour->names[index].c_str() : nullptr;
 }
 
-extern "C" wo_status wo_colour_of_file(const wo_colour *colour, const char *path, const char *says,
-                                       char *name, size_t size, wo_error *error)
+extern "C" bool wo_colour_find(const wo_colour *colour, const char *word, char *name, size_t size)
 {
-    return wo_guard(error, __func__,
-                    [&]() -> wo_status { return of_file(colour, path, says, name, size, error); });
+    return wo_guard(nullptr, __func__, [&]() -> wo_status {
+               const OCIO::ConstColorSpaceRcPtr space = space_of_word(colour, word);
+               return space ? put_name(*space, name, size, nullptr) : WO_ERR_NOT_FOUND;
+           }) == WO_OK;
+}
+
+extern "C" const wo_colour_standard *wo_colour_standard_of(const wo_colour *colour,
+                                                           const char *name)
+{
+    const wo_colour_standard *found = nullptr;
+    const wo_status status = wo_guard(nullptr, __func__, [&]() -> wo_status {
+        OCIO::ConstColorSpaceRcPtr space;
+        WO_TRY(find_space(colour, name, &space, nullptr));
+        found = standard_of(*space);
+        return WO_OK;
+    });
+    return status == WO_OK ? found : nullptr;
+}
+
+extern "C" wo_status wo_colour_of_file(const wo_colour *colour, const char *path,
+                                       const wo_colour_words *says, char *name, size_t size,
+                                       wo_colour_ground *ground, wo_error *error)
+{
+    return wo_guard(error, __func__, [&]() -> wo_status {
+        return of_file(colour, path, says, name, size, ground, error);
+    });
+}
+
+extern "C" bool wo_colour_is_same(const wo_colour *colour, const char *a, const char *b)
+{
+    return wo_guard(nullptr, __func__, [&]() -> wo_status {
+               OCIO::ConstColorSpaceRcPtr first, second;
+               WO_TRY(find_space(colour, a, &first, nullptr));
+               WO_TRY(find_space(colour, b, &second, nullptr));
+               return std::strcmp(first->getName(), second->getName()) ? WO_ERR_ARGUMENT : WO_OK;
+           }) == WO_OK;
 }
 
 extern "C" bool wo_colour_is_data(const wo_colour *colour, const char *name)

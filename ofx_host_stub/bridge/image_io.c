@@ -283,6 +283,35 @@ const wo_io_format *wo_io_format_of(const char *path)
     return NULL;
 }
 
+static bool is_exr(const char *path)
+{
+    const char *const name = strrchr(path, '/');
+    const char *const dot = strrchr(name ? name : path, '.');
+    return dot && !strcasecmp(dot, ".exr");
+}
+
+bool wo_io_same_format(const char *path, const char *other)
+{
+    const wo_io_format *const a = wo_io_format_of(path), *const b = wo_io_format_of(other);
+    if (is_exr(path) || is_exr(other))
+        return is_exr(path) && is_exr(other);
+    return a && b && !strcmp(a->library_name, b->library_name);
+}
+
+const char *wo_io_usual_space(const char *path)
+{
+    static const struct {
+        const char *library_name, *space;
+    } unusual[] = {{"hdr", "linear"}, {"dpx", "KodakLog"}, {"cineon", "KodakLog"}};
+    if (is_exr(path))
+        return "linear";
+    const wo_io_format *const format = wo_io_format_of(path);
+    for (size_t i = 0; format && i < WO_COUNT(unusual); i++)
+        if (!strcmp(format->library_name, unusual[i].library_name))
+            return unusual[i].space;
+    return format ? "sRGB" : "";
+}
+
 /* Reading. */
 
 static wo_status open_file(const char *path, int *fd, wo_error *error)

@@ -56,6 +56,13 @@ typedef struct wo_io_file {
 /* Pixels of one file never take more memory than this, in bytes. */
 #define WO_IO_MAX_BYTES ((uint64_t)64 << 30)
 
+/* What the colours of files with this extension are without a word in the file: "sRGB", "linear",
+   "KodakLog" in OpenImageIO's words, "" for unknown extensions. */
+const char *wo_io_usual_space(const char *path);
+
+/* Are files of these names of one format? "jpg" and "jpeg" are. */
+bool wo_io_same_format(const char *path, const char *other);
+
 /* Reads every part; headers_only leaves pixels NULL. *file is owned by the caller until
    wo_io_file_destroy; NULL after a failure. EXR is known by its first bytes, other formats by their
    extension: png tif tiff jpg jpeg dpx cin hdr tga bmp ppm pgm pnm webp jp2.

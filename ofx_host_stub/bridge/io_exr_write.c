@@ -12,6 +12,7 @@ typedef struct drain {
     const wo_exr_channel *channels; /* in file order */
     size_t pixel_bytes;
     int32_t y; /* top line of the chunk, y down, from 0 */
+    exr_result_t (*compress)(exr_encode_pipeline_t *encode); /* the library's */
 } drain;
 
 static bool is_colour(const char *channel)
@@ -59,6 +60,19 @@ static exr_result_t pack(exr_encode_pipeline_t *encode)
     }
     encode->packed_bytes = bytes;
     return EXR_ERR_SUCCESS;
+}
+
+/* Readers take a block as long as its pixels for one that is not compressed. The library (3.1)
+   keeps its own when it comes out at exactly that length. */
+static exr_result_t compress(exr_encode_pipeline_t *encode)
+{
+    const drain *const source = encode->encoding_user_data;
+    const exr_result_t result = source->compress(encode);
+    if (result == EXR_ERR_SUCCESS && encode->compressed_buffer && encode->packed_buffer &&
+        encode->compressed_bytes == encode->packed_bytes &&
+        encode->compressed_alloc_size >= encode->packed_bytes)
+        memcpy(encode->compressed_buffer, encode->packed_buffer, encode->packed_bytes);
+    return result;
 }
 
 static exr_compression_t compression_of(const wo_io_part *part)
@@ -137,6 +151,9 @@ static wo_status encode_chunks(const wo_exr_stream *stream, exr_context_t exr, i
             }
             WO_EXR_TRY(stream, exr_encoding_choose_default_routines(exr, index, encode));
             encode->convert_and_pack_fn = pack;
+            source->compress = encode->compress_fn;
+            if (encode->compress_fn)
+                encode->compress_fn = compress;
             encode->encoding_user_data = source;
         } else {
             WO_EXR_TRY(stream, exr_encoding_update(exr, index, &chunk, encode));

@@ -46,11 +46,12 @@ static const wo_option options[] = {
     {"--size", NULL, "WxH", "Size of the picture when there is no input; 1920x1080.", false},
     {"--threads", NULL, "N", "Threads the plugin may use; all cores.", false},
     {"--in-space", NULL, "NAME",
-     "Colour space of the input files; otherwise by the rules of the colour configuration. Mattes, "
-     "depth and other numbers are never converted.",
+     "Colour space of the input files; otherwise what each says of itself, or by the rules of the "
+     "colour configuration. Mattes, depth and other numbers are never converted.",
      false},
     {"--out-space", NULL, "NAME",
-     "Colour space of the output; otherwise by the rules of the configuration for its name.",
+     "Colour space of the output; otherwise that of Source where both files are of one format, or "
+     "by the rules of the configuration for its name. The file is labelled with it.",
      false},
     {"--ocio", NULL, "FILE",
      "OpenColorIO configuration; otherwise that of the variable OCIO, otherwise WideOpen's own.",

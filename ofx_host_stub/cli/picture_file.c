@@ -2,6 +2,8 @@
 /* Copyright the WideOpen authors */
 #include "picture_file.h"
 
+#include "bridge/colour_label.h"
+
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -59,16 +61,20 @@ static wo_status grey_to_rgb(wo_image *image, wo_error *error)
     return WO_OK;
 }
 
-wo_status wo_picture_linear(const wo_colour *colour, const wo_io_part *part, const char *space,
-                            wo_image *image, wo_error *error)
+wo_status wo_picture_linear(const wo_colour *colour, const wo_io_file *file, size_t part,
+                            const char *space, wo_image *image, wo_error *error)
 {
-    const wo_io_attribute *const straight = wo_io_part_find(part, "oiio:UnassociatedAlpha");
+    const wo_io_attribute *const said =
+        wo_io_part_find(&file->parts[part], "oiio:UnassociatedAlpha");
+    const bool straight = said && said->type != WO_IO_TEXT && said->number != 0;
+    const bool silent = strcmp(file->format, "dpx") == 0 || strcmp(file->format, "cineon") == 0;
     if (image->components == 1)
         WO_TRY(grey_to_rgb(image, error));
-    if (!straight || straight->type == WO_IO_TEXT || straight->number == 0)
+    if (!straight && !silent)
         return wo_colour_convert(colour, space, WO_COLOUR_WORKING, image, error);
     WO_TRY(wo_colour_convert_straight(colour, space, WO_COLOUR_WORKING, image, error));
-    wo_io_premultiply(image);
+    if (straight)
+        wo_io_premultiply(image);
     return WO_OK;
 }
 
@@ -80,10 +86,10 @@ static wo_status load(const wo_colour *colour, const char *space, const char *pa
     WO_TRY(wo_io_read(path, false, file, error));
     WO_TRY(wo_io_select(*file, channels, image, &part, error));
     if (!space) {
-        WO_TRY(wo_colour_of_file(colour, path, part->colour_space, name, sizeof name, error));
+        WO_TRY(wo_label_space(colour, path, part, name, sizeof name, NULL, error));
         space = name;
     }
-    return wo_picture_linear(colour, part, space, image, error);
+    return wo_picture_linear(colour, *file, (size_t)(part - (*file)->parts), space, image, error);
 }
 
 wo_status wo_picture_load(const wo_colour *colour, const char *space, const char *text,

@@ -17,10 +17,13 @@ WO_NODISCARD wo_status wo_picture_split(const char *text, int frame, char **file
 /* Is there a file at this frame? */
 bool wo_picture_exists(const char *pattern, int frame);
 
-/* Brings an image of a file's part from space to linear light, colour multiplied by alpha. A grey
-   one becomes RGB, so that it can be converted; its memory may move. */
-WO_NODISCARD wo_status wo_picture_linear(const wo_colour *colour, const wo_io_part *part,
-                                         const char *space, wo_image *image, wo_error *error);
+/* Brings an image of a file's part from space to linear light, colour multiplied by alpha. Files
+   whose colour is not multiplied are converted first; DPX and Cineon say nothing of alpha, their
+   colour is converted as it is and taken for light that is multiplied. A grey image becomes RGB, so
+   that it can be converted; its memory may move. */
+WO_NODISCARD wo_status wo_picture_linear(const wo_colour *colour, const wo_io_file *file,
+                                         size_t part, const char *space, wo_image *image,
+                                         wo_error *error);
 
 /* Reads "FILE[:CHANNELS]" as linear light; space NULL: by the file's rules. image->data is
    malloc-ed. */

@@ -2,6 +2,7 @@
 /* Copyright the WideOpen authors */
 #include "render_input_private.h"
 
+#include "bridge/colour_label.h"
 #include "depth_channel.h"
 #include "picture_file.h"
 #include "sequence.h"
@@ -33,6 +34,8 @@ wo_status wo_inputs_create(wo_colour *colour, const char *in_space, wo_inputs **
 static void picture_clear(wo_input_picture *p)
 {
     free(p->image.data);
+    free(p->path);
+    free(p->space);
     wo_io_file_destroy(&p->file);
     *p = (wo_input_picture){0};
 }
@@ -52,7 +55,6 @@ static void input_free(wo_input *input)
         picture_clear(&input->pictures[i]);
     free(input->pattern);
     free(input->channels);
-    free(input->space);
     free(input);
 }
 
@@ -91,6 +93,21 @@ static wo_status open_cached(wo_inputs *inputs, const char *path, const wo_io_fi
     return WO_OK;
 }
 
+/* Each file says for itself: a sequence may change on its way, and a farm may begin anywhere. */
+static wo_status choose_space(const wo_inputs *inputs, const char *path, wo_input_picture *p,
+                              wo_error *error)
+{
+    char space[256];
+    if (inputs->in_space)
+        snprintf(space, sizeof space, "%s", inputs->in_space);
+    else
+        WO_TRY(wo_label_space(inputs->colour, path, &p->file->parts[p->part], space, sizeof space,
+                              NULL, error));
+    p->path = strdup(path);
+    p->space = strdup(space);
+    return p->path && p->space ? WO_OK : wo_fail(error, WO_ERR_NOMEM, "out of memory for a name");
+}
+
 static wo_status read_picture(wo_input *input, int frame, wo_input_picture *p, wo_error *error)
 {
     char path[PATH_MAX];
@@ -110,7 +127,12 @@ static wo_status read_picture(wo_input *input, int frame, wo_input_picture *p, w
     WO_TRY(wo_io_read(path, true, &p->file, error));
     if (p->part >= p->file->part_count)
         return wo_fail(error, WO_ERR_FORMAT, "%s changed while it was read", path);
-    return WO_OK;
+    return choose_space(input->inputs, path, p, error);
+}
+
+bool wo_input_is_numbers(const wo_input *input, const wo_input_picture *p)
+{
+    return input->raw || wo_colour_is_data(input->inputs->colour, p->space);
 }
 
 static wo_status fit(const wo_input *input, wo_input_picture *p, wo_error *error)
@@ -130,9 +152,9 @@ wo_status wo_input_make_linear(wo_input *input, wo_input_picture *p, wo_error *e
 {
     if (p->linear)
         return WO_OK;
-    if (!input->raw)
-        WO_TRY(wo_picture_linear(input->inputs->colour, &p->file->parts[p->part], input->space,
-                                 &p->image, error));
+    if (!wo_input_is_numbers(input, p))
+        WO_TRY(
+            wo_picture_linear(input->inputs->colour, p->file, p->part, p->space, &p->image, error));
     WO_TRY(fit(input, p, error));
     p->linear = true;
     return WO_OK;
@@ -212,19 +234,10 @@ static bool guess_raw(const wo_input *input)
            (!source && input->present->image.components == 1);
 }
 
-static wo_status choose_space(wo_input *input, int frame, wo_error *error)
+static void show(wo_input *input, const wo_input_picture *p)
 {
-    const wo_inputs *const inputs = input->inputs;
-    char path[PATH_MAX], space[256];
-    WO_TRY(wo_io_frame_path(input->pattern, frame, path, sizeof path, error));
-    if (inputs->in_space)
-        snprintf(space, sizeof space, "%s", inputs->in_space);
-    else
-        WO_TRY(wo_colour_of_file(inputs->colour, path, wo_input_header(input)->colour_space, space,
-                                 sizeof space, error));
-    input->space = strdup(space);
-    input->raw |= wo_colour_is_data(inputs->colour, space);
-    return input->space ? WO_OK : wo_fail(error, WO_ERR_NOMEM, "out of memory for a name");
+    input->present = p;
+    snprintf(input->space, sizeof input->space, "%s", p->space);
 }
 
 int wo_input_stand_in(const wo_input *input, int frame)
@@ -271,9 +284,9 @@ static wo_status fill_input(wo_input *input, const char *spec, int frame, wo_err
         input->first = there.first;
         input->last = there.last;
     }
-    input->present = first;
+    show(input, first);
     input->raw = guess_raw(input);
-    return choose_space(input, shown, error);
+    return WO_OK;
 }
 
 wo_status wo_inputs_add(wo_inputs *inputs, const wo_host_clip_info *clip, const char *spec,
@@ -327,7 +340,7 @@ static wo_status prepare_all(wo_inputs *inputs, int frame, wo_error *error)
         drop_others(input, shown);
         WO_TRY(wo_input_fetch(input, shown, &p, error));
         input->missed = input->given = false;
-        input->present = p;
+        show(input, p);
         WO_TRY(wo_input_make_linear(input, p, error));
     }
     return WO_OK;
@@ -391,12 +404,21 @@ const char *wo_input_file(const wo_input *input)
 
 const char *wo_input_space(const wo_input *input)
 {
-    return input->raw ? "raw" : input->space;
+    return input->raw || wo_colour_is_data(input->inputs->colour, input->space) ? "raw"
+                                                                                : input->space;
+}
+
+wo_origin wo_input_origin(const wo_input *input)
+{
+    return (wo_origin){.header = wo_input_header(input),
+                       .path = input->present->path,
+                       .space = wo_input_is_raw(input) ? NULL : input->present->space,
+                       .forced = input->inputs->in_space != NULL};
 }
 
 bool wo_input_is_raw(const wo_input *input)
 {
-    return input->raw;
+    return wo_input_is_numbers(input, input->present);
 }
 
 void wo_input_set_raw(wo_input *input, bool raw)

@@ -7,6 +7,7 @@
 #include "bridge/image_io.h"
 #include "host/host.h"
 #include "picture_fit.h"
+#include "render_output.h"
 
 /* The clips of a render: files, or sequences of them, as sources of a host. A clip holds the
    picture of the frame that is rendered; a clip that looks at other frames holds a few more. */
@@ -79,6 +80,9 @@ void wo_input_set_raw(wo_input *input, bool raw); /* before wo_inputs_prepare */
 /* The present picture's file without its pixels: windows, pixel aspect, attributes. Borrowed until
    the next wo_inputs_prepare. */
 const wo_io_part *wo_input_header(const wo_input *input);
+
+/* Where the present picture comes from; borrowed as the header. */
+wo_origin wo_input_origin(const wo_input *input);
 
 /* Lets plugins see the attributes of the files, and "wideopen:own" = own (borrowed until
    wo_inputs_destroy); NULL, as at first: they see nothing. */

@@ -16,6 +16,8 @@ enum { WO_PICTURES_MAX = 8, WO_FILES_MAX = 4 };
 typedef struct wo_input_picture {
     int frame;
     bool linear;      /* colour conversion is done, or not needed */
+    char *path;       /* of this file */
+    char *space;      /* its colour space */
     wo_image image;   /* data is malloc-ed */
     wo_io_file *file; /* headers only */
     size_t part;      /* of the file */
@@ -27,8 +29,8 @@ struct wo_input {
     const wo_host_clip_info *clip;
     char *pattern;
     char *channels;
-    bool found; /* channels are what was found for depth, not what was given */
-    char *space;
+    bool found;      /* channels are what was found for depth, not what was given */
+    char space[256]; /* of the present picture, or of the last there was */
     bool sequence;
     int first, last; /* frames of a sequence that are on the disk */
     bool raw;
@@ -66,6 +68,9 @@ struct wo_inputs {
 WO_NODISCARD wo_status wo_input_fetch(wo_input *input, int frame, wo_input_picture **found,
                                       wo_error *error);
 WO_NODISCARD wo_status wo_input_make_linear(wo_input *input, wo_input_picture *p, wo_error *error);
+
+/* Is there nothing to convert in a picture of the clip? */
+bool wo_input_is_numbers(const wo_input *input, const wo_input_picture *p);
 
 /* The frame whose picture is taken for this one. A clip that is looked at elsewhere, too, need not
    have the frame that is rendered: its nearest one then stands for what is the same in all. */

@@ -72,16 +72,42 @@ static bool output_is_raw(wo_render_job *job)
     return false;
 }
 
+/* What the file that was written does not tell or hold. */
+static bool warn_of_output(wo_render_job *job, const wo_written *written)
+{
+    char text[512];
+    bool kept = true;
+    if (written->unsaid) {
+        snprintf(text, sizeof text,
+                 "%.200s is in the colour space %.80s, but its format cannot say so: what reads it "
+                 "has to be told (--in-space)",
+                 written->path, written->space);
+        kept = wo_record_warn(&job->record, "output-space", text);
+    }
+    if (written->cut > 0) {
+        snprintf(text, sizeof text,
+                 "%.200s: %lld samples lie beyond 65504, all that half holds, and were cut; --bits "
+                 "float keeps them",
+                 written->path, (long long)written->cut);
+        kept = wo_record_warn(&job->record, "output-cut", text) && kept;
+    }
+    tell_warnings(job);
+    return kept;
+}
+
 static wo_status write_frame(wo_render_job *job, wo_frame_record *frame, wo_image *image,
                              wo_error *error)
 {
     const wo_input *const source = wo_inputs_find(job->inputs, "Source");
-    char path[PATH_MAX];
+    const wo_origin origin = source ? wo_input_origin(source) : (wo_origin){0};
+    wo_written written;
     WO_TRY(wo_output_write(&job->output, frame->frame, image, scaled_project(job),
-                           source ? wo_input_header(source) : NULL, output_is_raw(job), path,
-                           sizeof path, error));
-    frame->output = strdup(path);
-    return frame->output ? WO_OK : wo_fail(error, WO_ERR_NOMEM, "out of memory for a file name");
+                           source ? &origin : NULL, output_is_raw(job), &written, error));
+    frame->output = strdup(written.path);
+    frame->space = strdup(written.space);
+    return frame->output && frame->space && warn_of_output(job, &written)
+               ? WO_OK
+               : wo_fail(error, WO_ERR_NOMEM, "out of memory for the report");
 }
 
 static void tell_frame(const wo_frame_record *frame)

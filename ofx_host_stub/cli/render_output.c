@@ -2,6 +2,8 @@
 /* Copyright the WideOpen authors */
 #include "render_output.h"
 
+#include "bridge/colour_label.h"
+
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
@@ -59,20 +61,18 @@ wo_status wo_output_check(const wo_output *output, int frame, wo_error *error)
 }
 
 /* Attributes that say how the input file was stored, not what it shows. */
-static bool is_storage(const wo_io_attribute *attribute, bool space_changed)
+static bool is_storage(const wo_io_attribute *attribute)
 {
     static const char *const names[] = {"compression", "wideopen:flattenedDeep", "wideopen:madeBy"};
     return strncmp(attribute->name, "oiio:", 5) == 0 ||
-           is_one_of(attribute->name, names, WO_COUNT(names)) ||
-           (space_changed && strcmp(attribute->name, "chromaticities") == 0);
+           is_one_of(attribute->name, names, WO_COUNT(names));
 }
 
 static wo_status copy_attributes(const wo_output *output, const wo_io_part *header,
-                                 const char *space, wo_io_part *part, wo_error *error)
+                                 wo_io_part *part, wo_error *error)
 {
-    const bool space_changed = header && strcmp(header->colour_space, space) != 0;
     for (size_t i = 0; header && i < header->attribute_count; i++)
-        if (!is_storage(&header->attributes[i], space_changed))
+        if (!is_storage(&header->attributes[i]) && !wo_label_is_one(header->attributes[i].name))
             WO_TRY(wo_io_part_set(part, &header->attributes[i], error));
     if (header)
         part->pixel_aspect = header->pixel_aspect;
@@ -93,34 +93,133 @@ static wo_status fill_part(wo_io_part *part, const wo_image *image, wo_rect disp
     return WO_OK;
 }
 
-static wo_status convert(const wo_output *output, const char *path, const char *space,
-                         wo_image *image, bool raw, wo_error *error)
+/* Do the configuration's rules treat the names alike? */
+static bool ruled_alike(const wo_colour *colour, const char *a, const char *b)
 {
-    static const char *const straight[] = {"png", "tga"}; /* formats with unmultiplied colour */
-    if (!raw)
-        WO_TRY(wo_colour_convert(output->colour, WO_COLOUR_WORKING, space, image, error));
-    if (!raw && image->components == 4 && is_one_of(extension(path), straight, WO_COUNT(straight)))
-        wo_io_unpremultiply(image);
+    char first[256], second[256];
+    return wo_label_space(colour, a, NULL, first, sizeof first, NULL, NULL) == WO_OK &&
+           wo_label_space(colour, b, NULL, second, sizeof second, NULL, NULL) == WO_OK &&
+           strcmp(first, second) == 0;
+}
+
+static wo_status choose_space(const wo_output *output, const wo_origin *origin, wo_written *written,
+                              wo_error *error)
+{
+    const char *const space = output->space ? output->space
+                              : origin && origin->space &&
+                                      wo_io_same_format(origin->path, written->path) &&
+                                      ruled_alike(output->colour, origin->path, written->path)
+                                  ? origin->space
+                                  : NULL;
+    if (!space)
+        return wo_label_space(output->colour, written->path, NULL, written->space,
+                              sizeof written->space, NULL, error);
+    snprintf(written->space, sizeof written->space, "%s", space);
     return WO_OK;
 }
 
-wo_status wo_output_write(const wo_output *output, int frame, wo_image *image, wo_rect display,
-                          const wo_io_part *header, bool raw, char *path, size_t path_size,
-                          wo_error *error)
+/* How colour lies beside alpha in a format. */
+typedef enum alpha_kind {
+    ALPHA_MULTIPLIED, /* as codes */
+    ALPHA_STRAIGHT,
+    ALPHA_SILENT /* the format has none or says nothing of it: light is multiplied, then encoded */
+} alpha_kind;
+
+static alpha_kind alpha_of(const char *path, const wo_origin *origin)
 {
-    char space[256] = "raw";
-    WO_TRY(wo_io_frame_path(output->pattern, frame, path, path_size, error));
-    if (!raw && output->space)
-        snprintf(space, sizeof space, "%s", output->space);
-    else if (!raw)
-        WO_TRY(wo_colour_of_file(output->colour, path, "", space, sizeof space, error));
-    WO_TRY(convert(output, path, space, image, raw, error));
+    static const char *const straight[] = {"png", "tga"}, *const either[] = {"tif", "tiff"};
+    const char *const ending = extension(path);
+    if (is_one_of(ending, straight, WO_COUNT(straight)))
+        return ALPHA_STRAIGHT;
+    if (strcasecmp(ending, "exr") == 0)
+        return ALPHA_MULTIPLIED;
+    if (!is_one_of(ending, either, WO_COUNT(either)))
+        return ALPHA_SILENT;
+    const wo_io_attribute *const said =
+        origin && wo_io_same_format(origin->path, path)
+            ? wo_io_part_find(origin->header, "oiio:UnassociatedAlpha")
+            : NULL;
+    return said && said->type != WO_IO_TEXT && said->number != 0 ? ALPHA_STRAIGHT
+                                                                 : ALPHA_MULTIPLIED;
+}
+
+static wo_status convert(const wo_output *output, const char *space, alpha_kind alpha,
+                         wo_image *image, wo_error *error)
+{
+    if (alpha == ALPHA_MULTIPLIED)
+        return wo_colour_convert(output->colour, WO_COLOUR_WORKING, space, image, error);
+    if (alpha == ALPHA_STRAIGHT)
+        wo_io_unpremultiply(image);
+    return wo_colour_convert_straight(output->colour, WO_COLOUR_WORKING, space, image, error);
+}
+
+static wo_status label(const wo_output *output, const wo_origin *origin, bool raw,
+                       const wo_written *written, wo_io_part *part, wo_error *error)
+{
+    const bool kept =
+        origin && !origin->forced &&
+        (raw ? !origin->space
+             : origin->space && wo_colour_is_same(output->colour, origin->space, written->space));
+    WO_TRY(copy_attributes(output, origin ? origin->header : NULL, part, error));
+    return wo_label_part(output->colour, raw ? NULL : written->space, origin ? origin->path : NULL,
+                         kept ? origin->header : NULL, part, error);
+}
+
+/* Samples that half cannot hold, where the file is in half. */
+static int64_t count_cut(const wo_output *output, const wo_image *image, const char *path)
+{
+    const float most = 65504;
+    int64_t count = 0;
+    if (strcasecmp(extension(path), "exr") != 0 ||
+        (output->depth != WO_IO_AUTO && output->depth != WO_IO_HALF))
+        return 0;
+    for (int32_t y = image->bounds.y1; y < image->bounds.y2; y++) {
+        const float *const row = wo_image_at(image, image->bounds.x1, y);
+        const size_t samples = (size_t)wo_rect_width(image->bounds) * (size_t)image->components;
+        for (size_t i = 0; i < samples; i++)
+            count += row[i] > most || row[i] < -most;
+    }
+    return count;
+}
+
+/* Would the file be read in another space? Only asked where it is not in that of its name. */
+static bool is_unsaid(const wo_output *output, const wo_written *written)
+{
+    char found[256];
+    wo_io_file *file = NULL;
+    if (wo_label_space(output->colour, written->path, NULL, found, sizeof found, NULL, NULL) ==
+            WO_OK &&
+        wo_colour_is_same(output->colour, found, written->space))
+        return false;
+    const bool same = wo_io_read(written->path, true, &file, NULL) == WO_OK &&
+                      wo_label_space(output->colour, written->path, &file->parts[0], found,
+                                     sizeof found, NULL, NULL) == WO_OK &&
+                      wo_colour_is_same(output->colour, found, written->space);
+    wo_io_file_destroy(&file);
+    return !same;
+}
+
+wo_status wo_output_write(const wo_output *output, int frame, wo_image *image, wo_rect display,
+                          const wo_origin *origin, bool raw, wo_written *written, wo_error *error)
+{
+    *written = (wo_written){.space = "raw"};
+    WO_TRY(wo_io_frame_path(output->pattern, frame, written->path, sizeof written->path, error));
+    const alpha_kind alpha = alpha_of(written->path, origin);
+    if (!raw) {
+        WO_TRY(choose_space(output, origin, written, error));
+        WO_TRY(convert(output, written->space, alpha, image, error));
+    }
+    written->cut = count_cut(output, image, written->path);
     wo_io_part part = {0};
     wo_status status = fill_part(&part, image, display, error);
     if (status == WO_OK)
-        status = copy_attributes(output, header, space, &part, error);
+        status = label(output, origin, raw, written, &part, error);
+    if (status == WO_OK && alpha == ALPHA_STRAIGHT)
+        status = wo_io_part_set_number(&part, "oiio:UnassociatedAlpha", 1, error);
     if (status == WO_OK)
-        status = wo_io_write(path, &part, 1, output->depth, error);
+        status = wo_io_write(written->path, &part, 1, output->depth, error);
     wo_io_part_clear(&part);
+    if (status == WO_OK && !raw)
+        written->unsaid = is_unsaid(output, written);
     return status;
 }

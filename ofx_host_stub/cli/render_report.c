@@ -118,6 +118,7 @@ void wo_record_free(wo_record *record)
         free(frame->reports);
         free(frame->plan);
         free(frame->output);
+        free(frame->space);
     }
     for (size_t i = 0; i < record->param_count; i++)
         free(record->params[i].value);
@@ -155,6 +156,7 @@ static void write_frame(wo_json *json, const wo_frame_record *frame)
     wo_json_integer(json, "frame", frame->frame);
     wo_json_text(json, "output", frame->output);
     wo_json_bool(json, "skipped", frame->skipped);
+    wo_json_text(json, "space", frame->space);
     const wo_rect w = frame->window;
     wo_json_numbers(json, "window", (const double[]){w.x1, w.y1, w.x2, w.y2}, 4);
     wo_json_text(json, "identity", frame->identity ? frame->identity_clip : NULL);

@@ -11,7 +11,7 @@
 
    {"wideopen": version, "plugin", "version", "context", "threads",
     "clips": {name: {"file", "space"}}, "params": {name: text}, "keys": {name: count},
-    "frames": [{"frame", "output", "skipped", "window", "identity", "actions",
+    "frames": [{"frame", "output", "space", "skipped", "window", "identity", "actions",
                 "seconds": {"read", "render", "write"}, "rays", "reports": [...], "plan"}],
     "rays", "seconds", "warnings": [{"frame", "key", "text"}], "violations": [...], "ok", "error"}
 
@@ -23,6 +23,7 @@
 typedef struct wo_frame_record {
     int frame;
     char *output; /* name of the file, NULL when none was written */
+    char *space;  /* its colour space */
     wo_rect window;
     bool skipped; /* left out: a file of it is missing */
     bool identity;

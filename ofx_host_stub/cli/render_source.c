@@ -124,8 +124,9 @@ static wo_status host_pixels(void *user, const wo_host_request *request, const w
     wo_status status = picture_at(input, frame_at(request->time), &p, error);
     if (status == WO_OK) {
         input->given = true;
-        wo_host_still still = {
-            .image = p->image, .pixel_aspect = wo_input_aspect(input, p), .nearest = input->raw};
+        wo_host_still still = {.image = p->image,
+                               .pixel_aspect = wo_input_aspect(input, p),
+                               .nearest = wo_input_is_numbers(input, p)};
         status = wo_host_still_pixels(&still, request, image, error);
     }
     pthread_mutex_unlock(&input->inputs->lock);
@@ -196,7 +197,7 @@ wo_host_source wo_input_source(wo_input *input, const wo_host_project *project)
     wo_host_source source = WO_HOST_SOURCE_INIT;
     source.user = input;
     source.components = input->present->image.components;
-    if (!input->raw && source.components == 1)
+    if (!wo_input_is_raw(input) && source.components == 1)
         source.components = 3; /* what make_linear gives */
     source.alpha = source.components == 4 ? WO_HOST_PREMULTIPLIED : WO_HOST_OPAQUE;
     source.pixel_aspect = wo_input_aspect(input, input->present);
@@ -204,7 +205,7 @@ wo_host_source wo_input_source(wo_input *input, const wo_host_project *project)
     source.first_frame = input->sequence ? input->first : project->first_frame;
     source.last_frame = input->sequence ? input->last : project->last_frame;
     if (!input->clip->mask)
-        source.colourspace = input->raw ? WO_OFX_SPACE_RAW : WO_OFX_SPACE_WORKING;
+        source.colourspace = wo_input_is_raw(input) ? WO_OFX_SPACE_RAW : WO_OFX_SPACE_WORKING;
     source.region = host_region;
     source.pixels = host_pixels;
     source.metadata = host_metadata;

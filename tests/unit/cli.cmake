@@ -48,3 +48,12 @@ target_include_directories(test_depth_channel PRIVATE
     ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/ofx_host_stub)
 target_link_libraries(test_depth_channel PRIVATE wo_bridge wo_base wo_options cmocka m)
 add_test(NAME unit.depth_channel COMMAND test_depth_channel)
+
+# A picture from file to file: what colours it is in, and what it says of that.
+add_executable(test_output ${CMAKE_CURRENT_LIST_DIR}/test_output.c
+    ${cli}/picture_file.c ${cli}/render_output.c)
+target_compile_definitions(test_output PRIVATE _POSIX_C_SOURCE=200809L)
+target_include_directories(test_output PRIVATE
+    ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/ofx_host_stub)
+target_link_libraries(test_output PRIVATE wo_bridge wo_base wo_options cmocka m)
+add_test(NAME unit.output COMMAND test_output)

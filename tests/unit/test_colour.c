@@ -211,15 +211,19 @@ static void files_have_spaces(void **state)
         {"x.exr", "something else", "lin_rec709"},
         {"no extension", NULL, "lin_rec709"},
         {"exr.png/x.exr", NULL, "lin_rec709"},
+        {"x.exr", "unknown", "lin_rec709"},
+        {"x.exr", "data", "raw"},
+        {"x.exr", "srgb_tx", "sRGB"},
     };
     char name[64];
     for (size_t i = 0; i < WO_COUNT(cases); i++) {
-        assert_ok(
-            wo_colour_of_file(colour, cases[i].path, cases[i].says, name, sizeof name, &fault));
+        const wo_colour_words says = {.words = {cases[i].says}};
+        assert_ok(wo_colour_of_file(colour, cases[i].path, cases[i].says ? &says : NULL, name,
+                                    sizeof name, NULL, &fault));
         if (strcmp(name, cases[i].wanted))
             fail_msg("%s is %s", cases[i].path, name);
     }
-    assert_fault(wo_colour_of_file(colour, "x.exr", NULL, name, 4, &fault), WO_ERR_RANGE,
+    assert_fault(wo_colour_of_file(colour, "x.exr", NULL, name, 4, NULL, &fault), WO_ERR_RANGE,
                  "longer than 4");
 }
 
@@ -297,7 +301,8 @@ static void other_configurations(void **state)
     assert_int_equal(wo_colour_count(other), 2);
     assert_ok(wo_colour_convert(other, "a", "b", &image, &fault));
     assert_float_equal(pixel[2], 4, 1e-6f);
-    assert_ok(wo_colour_of_file(other, "x.exr", "linear", name, sizeof name, &fault));
+    const wo_colour_words linear = {.words = {"Linear"}};
+    assert_ok(wo_colour_of_file(other, "x.png", &linear, name, sizeof name, NULL, &fault));
     assert_string_equal(name, "a");
     wo_colour_destroy(&other);
 

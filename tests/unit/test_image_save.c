@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#define _XOPEN_SOURCE 700
+#include "bridge_test.h"
+
+static const char *const rgba[] = {"R", "G", "B", "A"};
+
+static wo_io_part picture(int width, int height, int channels)
+{
+    const wo_rect window = {0, 0, width, height};
+    wo_io_part part = {0};
+    assert_ok(wo_io_part_init(&part, NULL, window, window, rgba, channels, &fault));
+    return part;
+}
+
+/* Blocks of every size about that of their pixels, where noise does not compress. */
+static void noise_is_not_mistaken(void **state)
+{
+    (void)state;
+    static const char *const kinds[] = {"rle", "zips", "zip", "piz"};
+    for (size_t kind = 0; kind < WO_COUNT(kinds); kind++)
+        for (int i = 0; i < 120; i++) {
+            wo_io_part part = picture(8 + i % 40, 4, 4);
+            wo_io_file *file = NULL;
+            const size_t samples = (size_t)wo_rect_width(part.data_window) * 16;
+            for (size_t k = 0; k < samples; k++)
+                part.pixels[k] = k % 4 == 3 && k / 4 % 4 != 1
+                                     ? (float)(k / 4 % 4)
+                                     : noise((uint32_t)(k * 7 + (size_t)i * 1000003));
+            assert_ok(wo_io_part_set_text(&part, "compression", kinds[kind], &fault));
+            assert_ok(wo_io_write(in_folder("a.exr"), &part, 1, WO_IO_SINGLE, &fault));
+            assert_ok(wo_io_read(in_folder("a.exr"), false, &file, &fault));
+            if (memcmp(file->parts->pixels, part.pixels, samples * sizeof(float)) != 0)
+                fail_msg("%s, picture %d comes back as another", kinds[kind], i);
+            wo_io_file_destroy(&file);
+            wo_io_part_clear(&part);
+        }
+}
+
+/* What a camera wrote goes into a directory of its own; the picture is to be found nevertheless. */
+static void tiff_with_exif_is_readable(void **state)
+{
+    (void)state;
+    wo_io_part part = picture(9, 5, 3);
+    wo_io_file *file = NULL;
+    fill_noise(&part, 0, 1);
+    assert_ok(wo_io_part_set_number(&part, "FNumber", 2.8, &fault));
+    assert_ok(wo_io_part_set_number(&part, "Exif:FocalLength", 50, &fault));
+    free(part.colour_space);
+    part.colour_space = strdup("sRGB");
+    assert_ok(wo_io_write(in_folder("a.tif"), &part, 1, WO_IO_SINGLE, &fault));
+    assert_ok(wo_io_read(in_folder("a.tif"), false, &file, &fault));
+    assert_memory_equal(file->parts->pixels, part.pixels, 9 * 5 * 3 * sizeof(float));
+    assert_string_equal(file->parts->colour_space, "sRGB");
+    const wo_io_attribute *const stop = wo_io_part_find(file->parts, "FNumber");
+    assert_non_null(stop);
+    assert_float_equal((float)stop->number, 2.8f, 1e-6f);
+    wo_io_file_destroy(&file);
+    wo_io_part_clear(&part);
+}
+
+/* Of the two colours beside it that three bytes and an exponent hold, the nearer one. */
+static void hdr_is_rounded(void **state)
+{
+    (void)state;
+    enum { SIDE = 32 };
+    wo_io_part part = picture(SIDE, SIDE, 3);
+    wo_io_file *file = NULL;
+    for (int i = 0; i < SIDE * SIDE * 3; i++)
+        part.pixels[i] = noise((uint32_t)i) * powf(4, (float)(i / 3 % 12) - 6);
+    assert_ok(wo_io_write(in_folder("a.hdr"), &part, 1, WO_IO_AUTO, &fault));
+    assert_ok(wo_io_read(in_folder("a.hdr"), false, &file, &fault));
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const float *const wanted = part.pixels + 3 * (size_t)i;
+        const float *const found = file->parts->pixels + 3 * (size_t)i;
+        int exponent;
+        (void)frexpf(fmaxf(found[0], fmaxf(found[1], found[2])), &exponent);
+        for (int c = 0; c < 3; c++)
+            if (!(fabsf(found[c] - wanted[c]) <= ldexpf(0.5f, exponent - 8) * 1.0001f))
+                fail_msg("pixel %d: %.9g for %.9g", i, (double)found[c], (double)wanted[c]);
+    }
+    wo_io_file_destroy(&file);
+    wo_io_part_clear(&part);
+}
+
+#define TEST(name) cmocka_unit_test_setup(name, empty_folder)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(noise_is_not_mistaken),
+        TEST(tiff_with_exif_is_readable),
+        TEST(hdr_is_rounded),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
