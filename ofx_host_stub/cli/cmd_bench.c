@@ -399,6 +399,7 @@ static int run(const wo_args *args)
     for (int i = 0; bench.shots && i < bench.shot_count; i++)
         free(bench.shots[i].points);
     free(bench.shots);
+    (void)wo_session_violations(job.host);
     wo_host_destroy(&job.host);
     wo_colour_destroy(&job.colour);
     return code;

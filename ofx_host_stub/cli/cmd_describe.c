@@ -174,6 +174,7 @@ int wo_cmd_describe(int argc, char **argv)
         if (code == WO_EXIT_OK)
             code = describe(&args, host);
     }
+    (void)wo_session_violations(host);
     wo_host_destroy(&host);
     wo_args_free(&args);
     return code;

@@ -439,14 +439,13 @@ static int render_all(wo_render_job *job)
     if (!job->record.plugin &&
         !wo_record_begin(&job->record, job->instance, job->frames.numbers[0]))
         return WO_EXIT_FAILURE;
-    wo_host_instance_destroy(&job->instance); /* what it leaks becomes violations */
-    for (size_t i = 0; i < wo_host_violation_count(job->host); i++)
-        wo_message("violation: %s", wo_host_violation(job->host, i));
+    wo_host_instance_destroy(&job->instance);
+    const size_t violations = wo_session_violations(job->host);
+    job->judged = true;
     const int written = write_reports(job, code == WO_EXIT_OK ? NULL : &error);
     if (code == WO_EXIT_OK)
         code = written;
-    if (code == WO_EXIT_OK && wo_args_count(job->args, "--strict") &&
-        wo_host_violation_count(job->host) > 0) {
+    if (code == WO_EXIT_OK && wo_args_count(job->args, "--strict") && violations > 0) {
         wo_message("%s broke the rules of OpenFX", job->plugin->identifier);
         code = WO_EXIT_FAILURE;
     }
@@ -494,6 +493,8 @@ int wo_cmd_render(int argc, char **argv)
         code = args.help ? print_help(&job) : run(&job);
     }
     wo_host_instance_destroy(&job.instance);
+    if (!job.judged) /* it has not come to a render */
+        (void)wo_session_violations(job.host);
     wo_host_destroy(&job.host);
     wo_inputs_destroy(&job.inputs);
     wo_colour_destroy(&job.colour);

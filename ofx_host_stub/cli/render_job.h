@@ -35,6 +35,7 @@ typedef struct wo_render_job {
     wo_inputs *inputs;
     wo_record record;
     size_t warnings_told;   /* of record's */
+    bool judged;            /* the plugin's breaches are printed */
     double opening_seconds; /* spent on reading files before the first frame */
 
     wo_bar bar; /* drawn by whichever thread has news; guarded by lock */

@@ -98,6 +98,17 @@ void wo_session_failures(const wo_host *host)
         wo_message("failed: %s", wo_host_failure(host, i));
 }
 
+size_t wo_session_violations(wo_host *host)
+{
+    if (!host)
+        return 0;
+    wo_host_unload(host); /* what is left behind is a breach, too */
+    const size_t count = wo_host_violation_count(host);
+    for (size_t i = 0; i < count; i++)
+        wo_message("violation: %s", wo_host_violation(host, i));
+    return count;
+}
+
 const wo_host_plugin *wo_session_plugin(wo_host *host, const char *name)
 {
     const wo_host_plugin *plugin = NULL;

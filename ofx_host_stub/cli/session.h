@@ -50,6 +50,10 @@ int wo_session_open(const wo_args *args, wo_host_config config, wo_host **host) 
 void wo_session_notes(const wo_host *host);
 void wo_session_failures(const wo_host *host);
 
+/* Unloads the plugins and prints every breach of the rules that they have committed, on stderr;
+   returns how many. Instances are gone. Takes NULL. */
+size_t wo_session_violations(wo_host *host);
+
 /* Loads a plugin by name; after a miss NULL and a message that says what there is. */
 const wo_host_plugin *wo_session_plugin(wo_host *host, const char *name);
 

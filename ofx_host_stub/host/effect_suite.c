@@ -159,6 +159,8 @@ static OfxStatus clip_get_region(OfxImageClipHandle clip, OfxTime time, OfxRectD
         region = frame->tile->canonical;
     else if (port->output && instance->has_region && instance->region_time == time)
         region = instance->region;
+    else if (!port->output && !port->connected)
+        return kOfxStatOK; /* nothing there is a region, too */
     else if ((port->output ? wo_default_region(instance, time, &region, NULL)
                            : wo_port_region(port, time, &region, NULL)) != WO_OK)
         return kOfxStatFailed;

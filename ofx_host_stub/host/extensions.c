@@ -9,6 +9,7 @@
    has taken over some later, for objects of another kind. */
 static const char *const names[] = {
     /* layout of parameters, planes, views and formats in compositors */
+    "OfxParamPropHint", /* the standard has it for parameters; clips are explained with it, too */
     "OfxParamPropLayoutHint",
     "OfxParamPropLayoutPadWidth",
     "OfxParamPropChoiceLabelOption",

@@ -52,6 +52,14 @@ static void module_free(wo_module *module)
     free(module);
 }
 
+/* A binary stays mapped to the end of the process: threads that it has started, those of OpenMP
+   among them, may still be in its code after Unload. */
+#ifdef RTLD_NODELETE
+#define MAP_FLAGS (RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE)
+#else
+#define MAP_FLAGS (RTLD_NOW | RTLD_LOCAL)
+#endif
+
 /* Maps a binary and asks how many plugins it has; NULL with the reason in *why. */
 static wo_module *module_map(char *path, const char **why)
 {
@@ -67,7 +75,7 @@ static wo_module *module_map(char *path, const char **why)
         module_free(module);
         return NULL;
     }
-    module->library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    module->library = dlopen(path, MAP_FLAGS);
     if (!module->library) {
         const char *text = dlerror();
         *why = text ? text : "cannot be opened";

@@ -313,7 +313,8 @@ wo_status wo_host_get_frames_needed(wo_host_instance *instance, double time, dou
         for (int k = 0; k + 1 < numbers; k += 2) {
             const double first = wo_props_double(&out, name.text, k, time);
             const double last = wo_props_double(&out, name.text, k + 1, time);
-            if (!(first <= last && isfinite(last - first)))
+            /* a last one before the first: none */
+            if (!isfinite(first) || !isfinite(last))
                 wo_violate_in(&frame, "the frames needed of \"%.80s\" are %g to %g",
                               instance->object.ports[i]->name, first, last);
             else if (k == 0) {

@@ -40,6 +40,12 @@ add_test(NAME contract.clips
             ${CMAKE_CURRENT_BINARY_DIR}/clips_work $<TARGET_FILE:exr_change>)
 set_tests_properties(contract.clips PROPERTIES TIMEOUT 300 ENVIRONMENT "${cli_environment}")
 
+# Breaches, with a plugin that commits them.
+add_test(NAME contract.strict
+    COMMAND ${CMAKE_CURRENT_LIST_DIR}/strict.sh $<TARGET_FILE:wideopen> $<TARGET_FILE:json_check>
+            ${CMAKE_CURRENT_BINARY_DIR}/strict_work ${CMAKE_CURRENT_BINARY_DIR}/host_plugins)
+set_tests_properties(contract.strict PROPERTIES TIMEOUT 300 ENVIRONMENT "${cli_environment}")
+
 # Times, with a plugin that looks at other frames.
 add_test(NAME contract.frames
     COMMAND ${CMAKE_CURRENT_LIST_DIR}/frames.sh $<TARGET_FILE:wideopen> $<TARGET_FILE:json_check>

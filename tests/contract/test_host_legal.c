@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 /* What plugins may do and what they are told; the plugin Legal fails when an answer is wrong. */
 
@@ -132,7 +133,7 @@ static void extensions_are_noted_once(void **state)
 #define PREMULTIPLIED     "OfxImageAlphaPremultiplied "
 #define UNPREMULTIPLIED   "OfxImageAlphaUnPremultiplied "
 #define OPAQUE            "OfxImageOpaque "
-#define UNCONNECTED_MASK  "Mask 0 " NOTHING_YET("Alpha") PREMULTIPLIED "1.5 30 3-90\n"
+#define UNCONNECTED_MASK  "Mask 0 " NOTHING_YET("Alpha") PREMULTIPLIED "1.5 30 3-90 0,0,0,0\n"
 
 static void clips_say_what_would_come(void **state)
 {
@@ -148,7 +149,7 @@ static void clips_say_what_would_come(void **state)
     /* CreateInstance: nothing is connected; the first kind each clip takes, those of the project */
     wo_host_instance *instance = create(host, "Filter");
     static const char at_first[] = "Source 0 " NOTHING_YET("RGB") OPAQUE
-        "1.5 30 3-90\n" UNCONNECTED_MASK "Output 1 " SAME("RGB") PREMULTIPLIED
+        "1.5 30 3-90 0,0,0,0\n" UNCONNECTED_MASK "Output 1 " SAME("RGB") PREMULTIPLIED
         "1.5 30 3-90 0,0,40,30\n";
     assert_string_equal(said, at_first);
 
@@ -201,6 +202,18 @@ static void own_changes_arrive_in_their_order(void **state)
     wo_host_destroy(&host);
 }
 
+/* A plugin's own threads run on after Unload, in code that must still be there. */
+static void threads_may_outlive_the_plugin(void **state)
+{
+    (void)state;
+    const struct timespec until = {.tv_nsec = 200000000};
+    assert_int_equal(setenv("WO_TEST_LINGER", "1", 1), 0);
+    wo_host *host = open_host();
+    wo_host_destroy(&host);
+    unsetenv("WO_TEST_LINGER");
+    nanosleep(&until, NULL);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -208,6 +221,7 @@ int main(void)
         cmocka_unit_test(extensions_are_noted_once),
         cmocka_unit_test(clips_say_what_would_come),
         cmocka_unit_test(own_changes_arrive_in_their_order),
+        cmocka_unit_test(threads_may_outlive_the_plugin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -33,7 +33,7 @@ static OfxStatus describe(OfxImageEffectHandle effect)
                             kOfxImageEffectContextFilter);
     ofx.prop->propSetString(p, kOfxImageEffectPropSupportedContexts, 1,
                             kOfxImageEffectContextGeneral);
-    if (misdeed("frames upside down") || misdeed("frames not in pairs"))
+    if (misdeed("frames of NaN") || misdeed("frames not in pairs"))
         ofx.prop->propSetInt(p, kOfxImageEffectPropTemporalClipAccess, 0, 1);
     if (misdeed("unknown property set"))
         ofx.prop->propSetInt(p, "OfxImageEffectPropNoSuchThing", 0, 1);
@@ -402,8 +402,8 @@ static OfxStatus main_entry(const char *action, const void *handle, OfxPropertyS
         ofx.prop->propSetDouble(out, kOfxImageEffectPropFrameRange, 0, 5);
         return ofx.prop->propSetDouble(out, kOfxImageEffectPropFrameRange, 1, 1);
     }
-    if (strcmp(action, kOfxImageEffectActionGetFramesNeeded) == 0 && misdeed("frames upside down"))
-        return ofx.prop->propSetDouble(out, "OfxImageClipPropFrameRange_Source", 0, 7);
+    if (strcmp(action, kOfxImageEffectActionGetFramesNeeded) == 0 && misdeed("frames of NaN"))
+        return ofx.prop->propSetDouble(out, "OfxImageClipPropFrameRange_Source", 0, (double)NAN);
     if (strcmp(action, kOfxImageEffectActionGetFramesNeeded) == 0 && misdeed("frames not in pairs"))
         return ofx.prop->propSetDouble(out, "OfxImageClipPropFrameRange_Source", 2, 7);
     if (strcmp(action, kOfxImageEffectActionIsIdentity) == 0 && misdeed("identity with nobody"))

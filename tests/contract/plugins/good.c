@@ -265,7 +265,8 @@ static OfxStatus region(OfxImageEffectHandle effect, OfxPropertySetHandle in,
     OfxRectD r;
     ofx.prop->propGetDouble(in, kOfxPropTime, 0, &time);
     const double radius = radius_at(effect, time);
-    if (ofx.effect->clipGetRegionOfDefinition(state_of(effect)->source, time, &r) != kOfxStatOK)
+    if (ofx.effect->clipGetRegionOfDefinition(state_of(effect)->source, time, &r) != kOfxStatOK ||
+        r.x2 <= r.x1)
         return kOfxStatReplyDefault;
     const double grown[] = {r.x1 - radius, r.y1 - radius, r.x2 + radius, r.y2 + radius};
     return ofx.prop->propSetDoubleN(out, kOfxImageEffectPropRegionOfDefinition, 4, grown);

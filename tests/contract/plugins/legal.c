@@ -6,10 +6,12 @@
 
 #include "host_plugin.h"
 
+#include <pthread.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 static OfxStatus failed;
 
@@ -99,9 +101,9 @@ static int tell_clip(OfxImageEffectHandle effect, const char *name, char *text, 
         failed = kOfxStatFailed;
     used += snprintf(text + used, size - (size_t)used, " %g %g %g-%g", aspect, rate, range[0],
                      range[1]);
-    if (ofx.effect->clipGetRegionOfDefinition(clip, 3, &region) == kOfxStatOK)
-        used += snprintf(text + used, size - (size_t)used, " %g,%g,%g,%g", region.x1, region.y1,
-                         region.x2, region.y2);
+    must(ofx.effect->clipGetRegionOfDefinition(clip, 3, &region), kOfxStatOK);
+    used += snprintf(text + used, size - (size_t)used, " %g,%g,%g,%g", region.x1, region.y1,
+                     region.x2, region.y2);
     used += snprintf(text + used, size - (size_t)used, "\n");
     return used;
 }
@@ -192,11 +194,30 @@ static OfxStatus render(OfxImageEffectHandle effect, OfxPropertySetHandle in)
     return failed;
 }
 
+/* A thread that nobody waits for; it is still at work when the plugin is unloaded. */
+static void *linger(void *user)
+{
+    const struct timespec moment = {.tv_nsec = 2000000};
+    (void)user;
+    for (int i = 0; i < 50; i++)
+        nanosleep(&moment, NULL);
+    return NULL;
+}
+
+static void start_lingering(void)
+{
+    pthread_t thread;
+    if (getenv("WO_TEST_LINGER") && pthread_create(&thread, NULL, linger, NULL) == 0)
+        pthread_detach(thread);
+}
+
 static OfxStatus main_entry(const char *action, const void *handle, OfxPropertySetHandle in,
                             OfxPropertySetHandle out)
 {
     OfxImageEffectHandle effect = (OfxImageEffectHandle)(uintptr_t)handle;
     failed = kOfxStatOK;
+    if (strcmp(action, kOfxActionUnload) == 0)
+        start_lingering();
     if (strcmp(action, kOfxActionLoad) == 0)
         return ofx_load() ? kOfxStatOK : kOfxStatErrMissingHostFeature;
     if (strcmp(action, kOfxActionDescribe) == 0)
