@@ -101,6 +101,7 @@ wo_status wo_diagram_make(wo_diagram_preset type, double focal_mm, double f_numb
     const double balance = p->second ? even_polynomial(p->t, 0.5) : 0;
     diagram->zones = WO_DIAGRAM_ZONES;
     diagram->lines = WO_DIAGRAM_LINES;
+    diagram->radius = focal_mm / (2 * f_number);
     for (int l = 0; l < diagram->lines; l++) {
         const double x = colour_power(crown, line_nm[l]) / dispersion(crown);
         const double colour = colour_of(p, line_nm[l]);
@@ -171,6 +172,11 @@ wo_status wo_diagram_validate(const wo_diagram *diagram, wo_error *error)
     if (!(diagram->lines >= 1 && diagram->lines <= WO_DIAGRAM_LINES))
         return wo_fail(error, WO_ERR_RANGE, "aberration diagram of %d wavelengths: must be 1..%d",
                        diagram->lines, WO_DIAGRAM_LINES);
+    if (!(diagram->radius >= 0 && isfinite(diagram->radius)))
+        return wo_fail(error, WO_ERR_RANGE,
+                       "pupil radius of the aberration diagram is %g mm: must be 0 (not said) or "
+                       "above",
+                       diagram->radius);
     for (int l = 0; l < diagram->lines; l++) {
         if (!(diagram->nm[l] >= WO_DIAGRAM_NM_MIN && diagram->nm[l] <= WO_DIAGRAM_NM_MAX))
             return wo_fail(error, WO_ERR_RANGE,

@@ -5,6 +5,7 @@
 #include <math.h>
 
 enum { NEWTON_MAX = 60 };
+#define STEEP 0.05 /* dz below which a ray runs along the plane of the vertex */
 
 /* Sag of a surface and half its slope by r^2 ( dz/dr = 2 r * slope ); false outside its domain. */
 static bool sag_of(const wo_system_surface *s, double r2, double *sag, double *slope)
@@ -36,9 +37,10 @@ static double radius2(const wo_system_surface *s, double x, double y)
                                            : y * y;
 }
 
-/* Moves the ray onto an asphere, from where it stands (Newton's method); false when it does not get
-   there. n: unnormalised normal with n[2] = 1. */
-static bool reach_asphere(const wo_system_surface *s, local_ray *r, double n[3])
+/* Moves the ray onto an asphere, from where it stands (Newton's method), to where it crosses it
+   from the front to the back (with > 0) or the other way (< 0); false when it does not get there.
+   n: unnormalised normal with n[2] = 1. */
+static bool reach_asphere(const wo_system_surface *s, double with, local_ray *r, double n[3])
 {
     const bool in_x = s->meridian != WO_MERIDIAN_Y;
     const bool in_y = s->meridian != WO_MERIDIAN_X;
@@ -52,7 +54,7 @@ static bool reach_asphere(const wo_system_surface *s, local_ray *r, double n[3])
         n[2] = 1;
         const double fall = n[0] * r->dx + n[1] * r->dy + r->dz;
         const double t = (sag - r->z) / fall;
-        if (!isfinite(t) || fall * r->dz <= 0)
+        if (!isfinite(t) || fall * with <= 0)
             return false;
         r->x += t * r->dx;
         r->y += t * r->dy;
@@ -63,26 +65,29 @@ static bool reach_asphere(const wo_system_surface *s, local_ray *r, double n[3])
     return false;
 }
 
-/* Moves the ray onto the surface; n: its unit normal, turned with the ray. */
-static bool reach(const wo_system_surface *s, local_ray *r, double n[3])
+/* Moves the ray onto the surface, to where it crosses it as reach_asphere says; n: its unit normal,
+   turned with the ray. The ray itself may run either way: at a strongly curved first surface light
+   arrives from the side, and from behind the plane of its vertex. */
+static bool reach(const wo_system_surface *s, double with, local_ray *r, double n[3])
 {
-    if (r->dz == 0)
-        return false;
-    /* To the plane of the vertex first: what follows is small. */
-    const double t0 = -r->z / r->dz;
+    /* Close to the vertex first: what follows is small. */
+    const bool steep = fabs(r->dz) < STEEP;
+    const double t0 = steep ? -(r->x * r->dx + r->y * r->dy + r->z * r->dz) : -r->z / r->dz;
     r->x += t0 * r->dx;
     r->y += t0 * r->dy;
-    r->z = 0;
+    r->z = steep ? r->z + t0 * r->dz : 0;
     const bool in_x = s->meridian != WO_MERIDIAN_Y;
     const bool in_y = s->meridian != WO_MERIDIAN_X;
     const double across = (in_x ? r->x * r->dx : 0) + (in_y ? r->y * r->dy : 0);
     const double flat = (in_x ? r->dx * r->dx : 0) + (in_y ? r->dy * r->dy : 0);
     const double a = s->c * (flat + (1 + s->k) * r->dz * r->dz);
-    const double b = r->dz - s->c * across;
-    const double c = s->c * radius2(s, r->x, r->y);
+    const double b = r->dz - s->c * (across + (1 + s->k) * r->z * r->dz);
+    const double c = s->c * (radius2(s, r->x, r->y) + (1 + s->k) * r->z * r->z) - 2 * r->z;
     const double d = b * b - a * c;
     if (d >= 0) {
-        const double t = c / (r->dz > 0 ? b + sqrt(d) : b - sqrt(d));
+        /* Of a t^2 - 2 b t + c = 0 the root with b - a t = +-sqrt(d), without cancellation. */
+        const double root = copysign(sqrt(d), with);
+        const double t = b * root >= 0 ? c / (b + root) : (b - root) / a;
         r->x += t * r->dx;
         r->y += t * r->dy;
         r->z += t * r->dz;
@@ -91,12 +96,12 @@ static bool reach(const wo_system_surface *s, local_ray *r, double n[3])
         n[2] = 1 - s->c * (1 + s->k) * r->z;
     }
     if (s->terms > 0) {
-        if (!reach_asphere(s, r, n))
+        if (!reach_asphere(s, with, r, n))
             return false;
     } else if (!(d >= 0) || !(n[2] > 0)) {
         return false; /* beside the surface, or on its far half */
     }
-    const double scale = copysign(1 / sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]), r->dz);
+    const double scale = copysign(1 / sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]), with);
     n[0] *= scale;
     n[1] *= scale;
     n[2] *= scale;
@@ -111,20 +116,20 @@ static double transmission(double n0, double n1, double cos0, double cos1)
     return 1 - 0.5 * (s * s + p * p);
 }
 
-/* One ray through one surface. */
-static wo_outcome pass(const wo_system_surface *s, bool is_stop, unsigned flags, local_ray *r,
-                       double *weight)
+/* One ray through one surface, with the light (with > 0) or against it (< 0). */
+static wo_outcome pass(const wo_system_surface *s, double with, bool is_stop, unsigned flags,
+                       local_ray *r, double *weight)
 {
     double n[3] = {0, 0, 1};
-    if (!reach(s, r, n))
+    if (!reach(s, with, r, n))
         return WO_RAY_MISSED;
     const unsigned wanted = is_stop ? WO_TRACE_IRIS : WO_TRACE_CLIP;
     if ((flags & wanted) && r->x * r->x + r->y * r->y > s->semi2)
         return WO_RAY_BLOCKED;
     if (s->n0 == s->n1)
         return WO_RAY_PASSED;
-    const double n_in = r->dz > 0 ? s->n0 : s->n1;
-    const double n_out = r->dz > 0 ? s->n1 : s->n0;
+    const double n_in = with > 0 ? s->n0 : s->n1;
+    const double n_out = with > 0 ? s->n1 : s->n0;
     const double mu = n_in / n_out;
     const double cos0 = n[0] * r->dx + n[1] * r->dy + n[2] * r->dz;
     const double square = 1 - mu * mu * (1 - cos0 * cos0);
@@ -145,6 +150,8 @@ static wo_outcome pass(const wo_system_surface *s, bool is_stop, unsigned flags,
 void wo_system_trace(const wo_system *system, int first, int last, bool reverse, unsigned flags,
                      const wo_rays *rays, int count, double *stop_x, double *stop_y)
 {
+    const double with = reverse ? -1 : 1;
+    const int entry = reverse ? system->count - 1 : 0;
     for (int i = 0; i < count; i++) {
         local_ray r = {rays->x[i], rays->y[i], rays->z[i], rays->dx[i], rays->dy[i], rays->dz[i]};
         wo_outcome outcome = WO_RAY_PASSED;
@@ -152,9 +159,10 @@ void wo_system_trace(const wo_system *system, int first, int last, bool reverse,
             const int at = reverse ? last - k : first + k;
             const wo_system_surface *s = &system->surface[at];
             r.z -= s->z;
-            outcome = (r.dz < 0) == reverse ? pass(s, at == system->stop, flags, &r,
-                                                   rays->weight ? &rays->weight[i] : NULL)
-                                            : WO_RAY_MISSED;
+            const bool onwards = at == entry || (r.dz < 0) == reverse;
+            outcome = onwards ? pass(s, with, at == system->stop, flags, &r,
+                                     rays->weight ? &rays->weight[i] : NULL)
+                              : WO_RAY_MISSED;
             r.z += s->z;
             if (at == system->stop && stop_x) {
                 stop_x[i] = r.x;

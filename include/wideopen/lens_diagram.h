@@ -33,8 +33,10 @@ extern "C" {
 #define WO_DIAGRAM_SHIFT_MAX 1e6 /* dioptres */
 
 typedef struct wo_diagram {
-    int zones; /* 2..33, at rho = i / (zones - 1) */
-    int lines; /* 1..16, nm rising */
+    int zones;     /* 2..33, at rho = i / (zones - 1) */
+    int lines;     /* 1..16, nm rising */
+    double radius; /* mm: height in the plane of the entrance pupil that rho = 1 stands for; 0: not
+                      said */
     double nm[WO_DIAGRAM_LINES];
     double shift[WO_DIAGRAM_LINES][WO_DIAGRAM_ZONES]; /* dioptres */
 } wo_diagram;
@@ -67,9 +69,12 @@ WO_NODISCARD wo_status wo_diagram_make(wo_diagram_preset preset, double focal_mm
 /* The diagram of a prescription, traced exactly from the point of the sensor on the axis out
    through the lens, in the meridian of y, for the wavelengths nm[lines] (rising, 1..16), with the
    iris open to f_number (0: fully), focused at vf dioptres from the entrance pupil with the d
-   line's paraxial rays. Zones are heights in the entrance pupil. WO_ERR_UNSUPPORTED for a lens
-   without a focal length, entrance pupil or image at finite places; WO_ERR_RANGE where no light
-   passes a zone. */
+   line's paraxial rays. The pupil coordinate rho is the height at which a ray crosses the plane of
+   the paraxial entrance pupil, in parts of that of the last ray of the d line that gets through the
+   iris and all clear radii (diagram->radius; it differs from the paraxial radius by some per cent),
+   or of a lower one where a line's rays end before. WO_ERR_UNSUPPORTED for a lens without a focal
+   length, entrance pupil or image at finite places, or without light along its axis; WO_ERR_RANGE
+   for an iris without limit. */
 WO_NODISCARD wo_status wo_diagram_of_lens(const wo_prescription *lens, double f_number, double vf,
                                           const double *nm, int lines, wo_diagram *diagram,
                                           wo_error *error);

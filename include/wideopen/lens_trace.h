@@ -59,7 +59,7 @@ double wo_system_image(const wo_system *system, wo_meridian meridian, double vf)
 /* Rays, by arrays of count. Directions are unit vectors. */
 typedef struct wo_rays {
     double *x, *y, *z;    /* mm */
-    double *dx, *dy, *dz; /* dz > 0 with the light, < 0 against it */
+    double *dx, *dy, *dz; /* dz > 0 with the light, < 0 against it; but see below */
     double *weight;       /* light that gets through, for WO_TRACE_FRESNEL; may be NULL */
     uint8_t *outcome;     /* wo_outcome */
 } wo_rays;
@@ -80,7 +80,9 @@ enum {
 
 /* Traces through surfaces first..last (indices, first <= last), with the light or against it
    (reverse). Rays come in where they stand, in the medium in front of the first (behind the last)
-   surface, and leave standing on the last one met. A ray that does not get through keeps where it
+   surface, and leave standing on the last one met. What comes to the lens's own first surface
+   (reverse: its last) may run either way, if it meets the surface from that side: light reaches a
+   dome at more than 90 degrees to the axis. A ray that does not get through keeps where it
    was stopped. stop_xy (may be NULL, else two arrays of count): where rays met the iris, x then y.
  */
 void wo_system_trace(const wo_system *system, int first, int last, bool reverse, unsigned flags,

@@ -3,6 +3,7 @@
 #include "args.h"
 #include "command.h"
 #include "json.h"
+#include "lens_data.h"
 #include "lens_panels.h"
 #include "text_file.h"
 
@@ -14,7 +15,9 @@
 enum { FILE_LIMIT = 1 << 20, NAMES_MAX = 256 };
 
 static const wo_option options[] = {
-    {"--json", NULL, NULL, "Print JSON; what is infinite becomes null.", false},
+    {"--json", NULL, NULL,
+     "Print all that the page shows as JSON; what is infinite or does not exist becomes null.",
+     false},
     {"--wavelength", NULL, "NM", "Of the first-order data and the focus, 300..2500; 587.56.",
      false},
     {"--meridian", NULL, "x|y",
@@ -25,19 +28,27 @@ static const wo_option options[] = {
      "paraxial focus.",
      false},
     {"--field", NULL, "DEG",
-     "Half field, 0.1..89; what the prescription says, else where a third of the light is left.",
+     "Half field, 0.1..150; what the prescription says, else where a third of the light is left, "
+     "at most 45. From 89 on the object must be at infinity.",
      false},
     {"--page", NULL, "FILE", "All drawings on one page, as SVG.", false},
     {"--section", NULL, "FILE",
      "The lens with rays of three fields, as SVG. Rays that are stopped are grey and end there.",
      false},
-    {"--aberration", NULL, "FILE", "Longitudinal aberration at F, d and C, as SVG.", false},
+    {"--aberration", NULL, "FILE",
+     "Longitudinal aberration at F, d and C, as SVG. Pupil height is where a ray crosses the plane "
+     "of the entrance pupil (ep_z); 1 is the last ray that gets through, in mm beside it.",
+     false},
     {"--spots", NULL, "FILE", "Spot diagrams at 0, 0.7 and 1 of the field, as SVG.", false},
-    {"--vignetting", NULL, "FILE", "Vignetting and distortion over the field, as SVG.", false},
+    {"--vignetting", NULL, "FILE",
+     "The part of the iris that passes light, the light on the sensor and distortion over the "
+     "field, as SVG.",
+     false},
     {"--bokeh", NULL, "FILE", "Density of rays through focus over the field: png, tif ...", false},
     {"--pencil-map", NULL, "FILE",
      "Density of the axial bundle over distance from the focus and radius at F, d and C, as EXR; "
-     "heights in micrometres on the sensor for an object at infinity.",
+     "heights in micrometres on the sensor for an object at infinity. It ends with the last ray "
+     "that gets through, as the aberration does.",
      false},
 };
 
@@ -146,10 +157,7 @@ static int find(const char *word, wo_prescription *lens)
 
 /* --------------------------------------------------------------------------- printing */
 
-static const struct {
-    const char *key, *text;
-    size_t offset;
-} rows[] = {
+const wo_lens_row_name wo_lens_rows[WO_LENS_ROWS] = {
     {"efl", "focal length", offsetof(wo_first_order, efl)},
     {"bfd", "rear focus from the last vertex", offsetof(wo_first_order, bfd)},
     {"ffd", "front focus from the first vertex", offsetof(wo_first_order, ffd)},
@@ -162,28 +170,12 @@ static const struct {
     {"fno", "f-number", offsetof(wo_first_order, fno)},
 };
 
-static const char clamped_note[] =
+const char wo_lens_clamped_note[] =
     "a glass has no data for this wavelength; the nearest that it has was taken";
 
-static double row_value(const wo_first_order *first, size_t row)
+double wo_lens_row(const wo_first_order *first, size_t row)
 {
-    return *(const double *)((const char *)first + rows[row].offset);
-}
-
-static void print_json(const wo_lens_view *view, const wo_first_order *first)
-{
-    wo_json json;
-    wo_json_begin(&json, stdout);
-    wo_json_object(&json, NULL);
-    wo_json_text(&json, "name", view->lens.name);
-    wo_json_text(&json, "title", view->lens.title);
-    wo_json_text(&json, "source", view->lens.source);
-    wo_json_number(&json, "wavelength", view->nm);
-    for (size_t i = 0; i < WO_COUNT(rows); i++)
-        wo_json_number(&json, rows[i].key, row_value(first, i));
-    if (view->system.clamped)
-        wo_json_text(&json, "note", clamped_note);
-    wo_json_close(&json);
+    return *(const double *)((const char *)first + wo_lens_rows[row].offset);
 }
 
 static void print_text(const wo_lens_view *view, const wo_first_order *first)
@@ -192,13 +184,13 @@ static void print_text(const wo_lens_view *view, const wo_first_order *first)
     if (view->lens.source[0])
         printf("source: %s\n", view->lens.source);
     printf("at %.4f nm, lengths in mm\n\n", view->nm);
-    for (size_t i = 0; i < WO_COUNT(rows); i++) {
+    for (size_t i = 0; i < WO_LENS_ROWS; i++) {
         char number[32];
-        wo_plot_number(number, sizeof number, row_value(first, i), 4);
-        printf("  %-5s %14s  %s\n", rows[i].key, number, rows[i].text);
+        wo_plot_number(number, sizeof number, wo_lens_row(first, i), 4);
+        printf("  %-5s %14s  %s\n", wo_lens_rows[i].key, number, wo_lens_rows[i].text);
     }
     if (view->system.clamped)
-        printf("\nnote: %s\n", clamped_note);
+        printf("\nnote: %s\n", wo_lens_clamped_note);
 }
 
 /* ------------------------------------------------------------------------------- work */
@@ -208,7 +200,7 @@ static bool read_setup(const wo_args *args, wo_lens_setup *setup)
     return wo_args_double(args, "--wavelength", 300, 2500, &setup->nm) &&
            wo_args_double(args, "--fnumber", 0.4, 1000, &setup->f_number) &&
            wo_args_double(args, "--focus", 0.001, 1e6, &setup->focus_m) &&
-           wo_args_double(args, "--field", 0.1, 89, &setup->half_field);
+           wo_args_double(args, "--field", 0.1, 150, &setup->half_field);
 }
 
 static wo_status draw(const wo_args *args, const wo_lens_view *view, int *drawn, wo_error *error)
@@ -262,7 +254,7 @@ static int show(const wo_args *args)
         return wo_failure(&error);
     const wo_first_order *const first = &view.first[meridian && *meridian == 'y' ? 1 : 0];
     if (wo_args_count(args, "--json"))
-        print_json(&view, first);
+        wo_lens_print_json(&view, first, stdout);
     else if (drawn == 0)
         print_text(&view, first);
     return WO_EXIT_OK;

@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { HEAD = 78 };
 
@@ -17,21 +18,22 @@ static const char *length_text(char *text, size_t size, double value)
     return text;
 }
 
-/* A line of the head; what does not fit into the width is cut. */
+/* A line of the head: smaller where it would not fit into the width, down to three quarters, and
+   then cut. */
 static void draw_fitting(wo_svg *svg, double y, double size, double width, bool bold,
                          const char *text)
 {
+    const double room = width - 56, least = 0.75 * size;
     char line[600];
-    const int room = (int)((width - 56) / (size * (bold ? 0.55 : 0.5)));
-    int characters = 0;
-    size_t length = 0;
-    while (text[length] && length < sizeof line - 4) {
-        characters += ((unsigned char)text[length] & 0xC0) != 0x80;
-        if (characters > room)
-            break;
-        length++;
+    snprintf(line, sizeof line, "%s", text);
+    size = fmax(least, fmin(size, size * room / wo_plot_text_width(text, size, bold)));
+    for (size_t length = strlen(line);
+         length > 0 && wo_plot_text_width(line, size, bold) > room * 1.0001;) {
+        do
+            length--;
+        while (length > 0 && ((unsigned char)text[length] & 0xC0) == 0x80);
+        snprintf(line, sizeof line, "%.*s...", (int)length, text);
     }
-    snprintf(line, sizeof line, "%.*s%s", (int)length, text, text[length] ? "..." : "");
     wo_svg_text(svg, 28, y, size, WO_ANCHOR_START, bold, line);
 }
 
@@ -45,7 +47,7 @@ static void draw_head(const wo_lens_view *view, wo_svg *svg, double width)
     draw_fitting(svg, 30, 18, width, true, lens->title[0] ? lens->title : lens->name);
     snprintf(text, sizeof text, "focal length %s, f/%s, half field %s\xC2\xB0, %s nm, object at %s",
              length_text(efl, sizeof efl, view->first[1].efl),
-             wo_plot_number(fno, sizeof fno, view->first[1].fno, 2),
+             wo_plot_number(fno, sizeof fno, view->f_number, 2),
              wo_plot_number(field, sizeof field, view->half_field, 1),
              wo_plot_number(nm, sizeof nm, view->nm, 1), focus);
     draw_fitting(svg, 50, 12, width, false, text);
@@ -62,17 +64,21 @@ static void draw_seidel(const wo_lens_view *view, wo_svg *svg, wo_box box)
         "S IV, field curvature",       "S V, distortion", "C I, axial colour, F to C",
         "C II, lateral colour, F to C"};
     const double ep_d = view->first[1].ep_d;
-    if (!isfinite(ep_d) || view->half_field >= 89)
-        return;
     wo_seidel seidel;
     double sums[7], colour[2];
+    double y = box.y + 18;
+    wo_svg_text(svg, box.x + 12, y, 13, WO_ANCHOR_START, true,
+                "Seidel sums, object at infinity, \xC2\xB5m");
+    if (!wo_lens_has_seidel(view)) {
+        wo_svg_text(svg, box.x + 12, y + 22, 11, WO_ANCHOR_START, false,
+                    isfinite(ep_d) ? "none: the half field is 89\xC2\xB0 or more"
+                                   : "none: no entrance pupil");
+        return;
+    }
     wo_system_seidel(&view->system, ep_d, view->half_field, &seidel);
     wo_system_chromatic_sums(&view->lens, ep_d, view->half_field, WO_NM_F, WO_NM_C, colour);
     for (int i = 0; i < 7; i++)
         sums[i] = i < 5 ? seidel.s[i] : colour[i - 5];
-    double y = box.y + 18;
-    wo_svg_text(svg, box.x + 12, y, 13, WO_ANCHOR_START, true,
-                "Seidel sums, object at infinity, \xC2\xB5m");
     for (int i = 0; i < 7; i++) {
         char text[32];
         y += i == 0 ? 22 : 18;
@@ -124,8 +130,13 @@ void wo_panel_data(const wo_lens_view *view, wo_svg *svg, wo_box box)
     wo_svg_text(svg, box.x + 12, y + 18, 11, WO_ANCHOR_START, false, "Last vertex to the sensor");
     wo_svg_text(svg, right, y + 18, 11, WO_ANCHOR_END, false,
                 length_text(text, sizeof text, view->image));
-    if (!view->anamorphic)
-        draw_seidel(view, svg, (wo_box){box.x, y + 34, box.w, 0});
+    if (view->anamorphic)
+        return;
+    y += 18;
+    wo_svg_text(svg, box.x + 12, y + 18, 11, WO_ANCHOR_START, false, "Petzval radius");
+    wo_svg_text(svg, right, y + 18, 11, WO_ANCHOR_END, false,
+                length_text(text, sizeof text, wo_lens_petzval_radius(view)));
+    draw_seidel(view, svg, (wo_box){box.x, y + 30, box.w, 0});
 }
 
 static void draw_all(const wo_lens_view *view, wo_svg *svg)
@@ -135,8 +146,19 @@ static void draw_all(const wo_lens_view *view, wo_svg *svg)
     const double y = HEAD + 410, h = 350;
     wo_panel_aberration(view, svg, (wo_box){16, y, 300, h});
     wo_panel_spots(view, svg, (wo_box){322, y, 400, h});
-    wo_panel_illumination(view, svg, (wo_box){728, y, 274, h});
-    wo_panel_distortion(view, svg, (wo_box){1004, y, 260, h});
+    wo_lens_field_curves curves;
+    wo_lens_field_curves_make(view, &curves);
+    wo_panel_illumination(view, &curves, svg, (wo_box){728, y, 274, h});
+    wo_panel_distortion(view, &curves, svg, (wo_box){1004, y, 260, h});
+}
+
+static void draw_field_curves(const wo_lens_view *view, wo_svg *svg, wo_box box)
+{
+    wo_lens_field_curves curves;
+    wo_lens_field_curves_make(view, &curves);
+    wo_panel_illumination(view, &curves, svg, (wo_box){box.x, box.y, box.w / 2 - 8, box.h});
+    wo_panel_distortion(view, &curves, svg,
+                        (wo_box){box.x + box.w / 2 + 8, box.y, box.w / 2 - 8, box.h});
 }
 
 wo_status wo_lens_page_save(const wo_lens_view *view, wo_lens_page page, const char *path,
@@ -147,7 +169,7 @@ wo_status wo_lens_page_save(const wo_lens_view *view, wo_lens_page page, const c
         double width, height;
     } pages[] = {
         {"section", 1000, 600},      {"longitudinal aberration", 680, 640},
-        {"spot diagrams", 900, 520}, {"vignetting and distortion", 900, 500},
+        {"spot diagrams", 900, 520}, {"illumination and distortion", 900, 500},
         {"lens data", 1280, 856},
     };
     char title[256];
@@ -170,9 +192,7 @@ wo_status wo_lens_page_save(const wo_lens_view *view, wo_lens_page page, const c
         wo_panel_spots(view, &svg, box);
         break;
     case WO_PAGE_VIGNETTING:
-        wo_panel_illumination(view, &svg, (wo_box){box.x, box.y, box.w / 2 - 8, box.h});
-        wo_panel_distortion(view, &svg,
-                            (wo_box){box.x + box.w / 2 + 8, box.y, box.w / 2 - 8, box.h});
+        draw_field_curves(view, &svg, box);
         break;
     case WO_PAGE_ALL:
         draw_all(view, &svg);

@@ -3,7 +3,7 @@
 #ifndef WO_CLI_LENS_PANELS_H
 #define WO_CLI_LENS_PANELS_H
 
-#include "lens_view.h"
+#include "lens_curves.h"
 #include "plot.h"
 
 /* Drawings of a lens, each inside a box of a page. All but the section need an image. */
@@ -11,9 +11,15 @@
 void wo_panel_section(const wo_lens_view *view, wo_svg *svg, wo_box box);
 void wo_panel_aberration(const wo_lens_view *view, wo_svg *svg, wo_box box);
 void wo_panel_spots(const wo_lens_view *view, wo_svg *svg, wo_box box);
-void wo_panel_illumination(const wo_lens_view *view, wo_svg *svg, wo_box box);
-void wo_panel_distortion(const wo_lens_view *view, wo_svg *svg, wo_box box);
+void wo_panel_illumination(const wo_lens_view *view, const wo_lens_field_curves *curves,
+                           wo_svg *svg, wo_box box);
+void wo_panel_distortion(const wo_lens_view *view, const wo_lens_field_curves *curves, wo_svg *svg,
+                         wo_box box);
 void wo_panel_data(const wo_lens_view *view, wo_svg *svg, wo_box box);
+
+/* A diagram with the legend in a row of its own. */
+wo_plot wo_panel_begin(wo_svg *svg, wo_box box, const char *title, wo_axis x, wo_axis y,
+                       const wo_pen *pens, const char *const *names, int count);
 
 /* Pens of the F, d and C lines and of the three fields. */
 extern const wo_pen wo_lens_line_pens[WO_LENS_LINES];

@@ -229,6 +229,20 @@ static void draw_ruler(const section *s)
                 "z from the first vertex, mm (the same scale across)");
 }
 
+/* Where the sensor is that is not drawn. */
+static void note_sensor(const section *s)
+{
+    char text[96], number[32];
+    const double image = s->view->image;
+    if (isfinite(image))
+        snprintf(text, sizeof text, "the sensor, outside of the drawing: z = %s mm%s",
+                 wo_plot_number(number, sizeof number, wo_lens_sensor_z(s->view), 1),
+                 image > 0 ? "" : ", a virtual image");
+    else
+        snprintf(text, sizeof text, "no sensor: the image is at infinity");
+    wo_svg_text(s->svg, s->box.x + s->box.w, s->box.y + 12, 11, WO_ANCHOR_END, false, text);
+}
+
 static void draw_section(const wo_lens_view *view, wo_svg *svg, wo_meridian meridian, wo_box box)
 {
     section s = {.view = view, .svg = svg, .meridian = meridian, .box = box};
@@ -250,6 +264,8 @@ static void draw_section(const wo_lens_view *view, wo_svg *svg, wo_meridian meri
     draw_iris(&s);
     draw_frame(&s, end_z, height);
     wo_svg_clip_end(svg);
+    if (!image)
+        note_sensor(&s);
     draw_ruler(&s);
 }
 

@@ -11,15 +11,16 @@
 /* Density of rays on planes around the focus; every cell is as wide as every other. */
 
 enum { SIDE = 176, STEPS = 9, CELLS = STEPS * WO_LENS_FIELDS, RAYS = 60000, SPECTRUM = 13 };
+#define DISC 0.012 /* of the outermost planes, in parts of the focal length */
 
 typedef struct strip {
     const wo_lens_view *view;
-    double shift; /* of the outermost planes, mm */
-    double cell;  /* side of a cell, mm */
+    double shift;                /* of the outermost planes, mm */
+    double cell[WO_LENS_FIELDS]; /* side of the cells of a row, mm */
     double rgb[SPECTRUM][3];
     double full; /* area of the bundle on the axis, mm^2 */
     wo_image image[CELLS];
-    char caption[CELLS][2][64];
+    char caption[CELLS][2][96];
     wo_picture_cell cells[CELLS];
 } strip;
 
@@ -97,11 +98,11 @@ static void centroid(const wo_bundle *b, double z, double centre[2])
 
 static void add_line(strip *s, const wo_bundle *b, int row, int line, double centres[STEPS][2])
 {
-    const double px = SIDE / s->cell, base = wo_lens_sensor_z(s->view);
+    const double px = SIDE / s->cell[row], base = wo_lens_sensor_z(s->view);
     for (int step = 0; step < STEPS; step++) {
         const double shift = step_shift(s, step), z = base + shift;
         /* Exposed for a uniform disc of the size that the f-number gives, and a little. */
-        const double r = fabs(shift) / (2 * s->view->first[1].fno), least = 0.1 * s->cell;
+        const double r = fabs(shift) / (2 * s->view->f_number), least = 0.1 * s->cell[0];
         const double gain =
             0.4 * 3.14159265 * (r * r + least * least) * px * px * b->area / s->full;
         float rgb[3];
@@ -118,12 +119,29 @@ static void add_line(strip *s, const wo_bundle *b, int row, int line, double cen
     }
 }
 
+/* As wide as the light on the outermost planes, but not less than on the axis. */
+static double cell_of(const strip *s, const wo_bundle *b, double centres[STEPS][2])
+{
+    double half = 0;
+    for (int step = 0; step < STEPS; step += STEPS - 1) {
+        const double z = wo_lens_sensor_z(s->view) + step_shift(s, step);
+        for (int i = 0; i < b->count; i++) {
+            if (b->rays.outcome[i] != WO_RAY_PASSED)
+                continue;
+            const double t = (z - b->rays.z[i]) / b->rays.dz[i];
+            half = fmax(half, fabs(b->rays.x[i] + t * b->rays.dx[i] - centres[step][0]));
+            half = fmax(half, fabs(b->rays.y[i] + t * b->rays.dy[i] - centres[step][1]));
+        }
+    }
+    return fmax(1.8 * DISC * fabs(s->view->first[1].efl), 2.3 * half);
+}
+
 static bool draw_row(strip *s, int row)
 {
     const double field = wo_lens_fields[row] * s->view->half_field;
     const unsigned flags = WO_TRACE_CLIP | WO_TRACE_IRIS;
     wo_bundle b;
-    if (!wo_bundle_fill(s->view, s->view->across, field, WO_LATTICE_SCATTERED, RAYS, &b))
+    if (!wo_bundle_fill(s->view, s->view->across, field, RAYS, &b))
         return row > 0; /* off the axis nothing may get through */
     double centres[STEPS][2];
     wo_bundle_trace(s->view, &s->view->system, s->view->across, field, flags, &b);
@@ -134,10 +152,11 @@ static bool draw_row(strip *s, int row)
         s->full = fmax(passed, 1) * b.area;
     for (int step = 0; step < STEPS; step++)
         centroid(&b, wo_lens_sensor_z(s->view) + step_shift(s, step), centres[step]);
+    s->cell[row] = cell_of(s, &b, centres);
     for (int line = 0; line < SPECTRUM; line++) {
         wo_system system;
         wo_system_make(&s->view->lens, line_nm(line), &system);
-        wo_bundle_scatter(&b, line);
+        wo_bundle_scatter(&b, s->view->across, line);
         wo_bundle_trace(s->view, &system, s->view->across, field, flags, &b);
         add_line(s, &b, row, line, centres);
     }
@@ -148,32 +167,39 @@ static bool draw_row(strip *s, int row)
 static bool prepare(strip *s)
 {
     for (int i = 0; i < CELLS; i++) {
-        const int row = i / STEPS, step = i % STEPS;
         float *const data = calloc((size_t)SIDE * SIDE * 3, sizeof *data);
         if (!data)
             return false;
         s->image[i] = (wo_image){data, {0, 0, SIDE, SIDE}, SIDE * 3 * (ptrdiff_t)sizeof(float), 3};
-        char shift[32], field[32];
-        wo_plot_number(shift, sizeof shift, step_shift(s, step), 3);
-        wo_plot_number(field, sizeof field, wo_lens_fields[row] * s->view->half_field, 1);
-        snprintf(s->caption[i][0], sizeof s->caption[i][0], "%s mm", shift);
-        snprintf(s->caption[i][1], sizeof s->caption[i][1], "field %s deg", field);
         s->cells[i] = (wo_picture_cell){&s->image[i], true, {s->caption[i][0], s->caption[i][1]}};
     }
     return true;
 }
 
+static void caption(strip *s)
+{
+    for (int i = 0; i < CELLS; i++) {
+        const int row = i / STEPS;
+        char shift[32], field[32], cell[32];
+        wo_plot_number(shift, sizeof shift, step_shift(s, i % STEPS), 3);
+        wo_plot_number(field, sizeof field, wo_lens_fields[row] * s->view->half_field, 1);
+        wo_plot_number(cell, sizeof cell, s->cell[row], s->cell[row] < 1 ? 3 : 2);
+        snprintf(s->caption[i][0], sizeof s->caption[i][0], "%s mm", shift);
+        snprintf(s->caption[i][1], sizeof s->caption[i][1], "%s deg, %s mm", field, cell);
+    }
+}
+
 static wo_status save(strip *s, const char *path, wo_error *error)
 {
-    char title[200], subtitle[200], cell[32], fno[32];
+    char title[200], subtitle[200], fno[32];
     const wo_prescription *const lens = &s->view->lens;
     snprintf(title, sizeof title, "%s: bokeh through focus",
              lens->title[0] ? lens->title : lens->name);
     snprintf(
         subtitle, sizeof subtitle,
-        "f/%s, sensor moved from the paraxial focus (+ away from the lens), squares %s mm wide",
-        wo_plot_number(fno, sizeof fno, s->view->first[1].fno, 2),
-        wo_plot_number(cell, sizeof cell, s->cell, 3));
+        "f/%s, sensor moved from the paraxial focus (+ away from the lens); below: field, width of "
+        "the square",
+        wo_plot_number(fno, sizeof fno, s->view->f_number, 2));
     const wo_picture_layout layout = {title, subtitle, STEPS, SIDE, SIDE};
     wo_image result = {0};
     wo_status status = wo_picture_sheet(&layout, s->cells, CELLS, &result, error);
@@ -189,14 +215,16 @@ wo_status wo_lens_strip_save(const wo_lens_view *view, const char *path, wo_erro
     strip *const s = calloc(1, sizeof *s);
     if (!s)
         return wo_fail(error, WO_ERR_NOMEM, "out of memory for the bokeh strip");
-    const double disc = 0.012 * fabs(view->first[1].efl);
+    const double disc = DISC * fabs(view->first[1].efl);
     s->view = view;
-    s->shift = disc * view->first[1].fno;
-    s->cell = 1.8 * disc;
+    s->shift = disc * view->f_number;
+    for (int row = 0; row < WO_LENS_FIELDS; row++)
+        s->cell[row] = 1.8 * disc;
     make_spectrum(s->rgb);
     bool complete = prepare(s);
     for (int row = 0; row < WO_LENS_FIELDS && complete; row++)
         complete = draw_row(s, row);
+    caption(s);
     const wo_status status =
         complete ? save(s, path, error)
                  : wo_fail(error, WO_ERR_UNSUPPORTED,

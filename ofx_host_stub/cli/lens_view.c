@@ -36,7 +36,6 @@ static double pupil_z(const wo_lens_view *view)
 static wo_status stop_down(wo_lens_view *view, double f_number, wo_error *error)
 {
     wo_surface *const stop = &view->lens.surface[view->lens.stop];
-    view->f_number = f_number > 0 ? f_number : view->first[1].fno;
     if (f_number <= 0)
         return WO_OK;
     const wo_first_order *const open = &view->first[1];
@@ -59,30 +58,29 @@ static void make_systems(wo_lens_view *view)
         wo_system_make(&view->lens, wo_lens_nm[i], &view->line[i]);
     wo_system_first_order(&view->system, WO_MERIDIAN_X, &view->first[0]);
     wo_system_first_order(&view->system, WO_MERIDIAN_Y, &view->first[1]);
-}
-
-static double passing_area(const wo_lens_view *view, double field)
-{
-    wo_bundle bundle;
-    int passed = 0;
-    if (!wo_bundle_fill(view, view->across, field, WO_LATTICE_GRID, 1600, &bundle))
-        return 0;
-    wo_bundle_trace(view, &view->system, view->across, field, WO_TRACE_CLIP | WO_TRACE_IRIS,
-                    &bundle);
-    for (int i = 0; i < bundle.count; i++)
-        passed += bundle.rays.outcome[i] == WO_RAY_PASSED;
-    const double area = passed * bundle.area;
-    wo_bundle_free(&bundle);
-    return area;
+    for (int m = 0; m < 2; m++)
+        if (!isfinite(view->first[m].ep_d))
+            view->first[m].fno = NAN;
 }
 
 static double field_of(const wo_lens_view *view)
 {
-    const double full = passing_area(view, 0);
+    wo_lens_beam axis, beam;
+    if (!wo_lens_beam_make(view, 0, &axis))
+        return 1;
     for (double field = 45; field > 1; field -= 1)
-        if (passing_area(view, field) > full / 3)
+        if (wo_lens_beam_make(view, field, &beam) && beam.flux > axis.flux / 3)
             return field;
     return 1;
+}
+
+static double working_f_number(const wo_lens_view *view)
+{
+    double low, high, chief;
+    if (isfinite(view->first[1].fno) ||
+        !wo_lens_fan(view, WO_MERIDIAN_Y, 0, WO_TRACE_CLIP, &low, &high, &chief))
+        return view->first[1].fno;
+    return fabs(view->first[1].efl) / (high - low);
 }
 
 wo_status wo_lens_view_make(const wo_prescription *lens, const wo_lens_setup *setup,
@@ -104,9 +102,15 @@ wo_status wo_lens_view_make(const wo_prescription *lens, const wo_lens_setup *se
     const double x = wo_system_image(&view->system, WO_MERIDIAN_X, view->vf);
     const double y = wo_system_image(&view->system, WO_MERIDIAN_Y, view->vf);
     view->image = isfinite(x) && isfinite(y) ? (x + y) / 2 : isfinite(y) ? y : x;
+    view->f_number = working_f_number(view);
     view->half_field = setup->half_field > 0 ? setup->half_field : lens->half_field;
     if (view->half_field <= 0)
         view->half_field = field_of(view);
+    if (view->vf > 0 && view->half_field >= WO_LENS_PLANE_FIELD)
+        return wo_fail(error, WO_ERR_RANGE,
+                       "a half field of %g degrees with an object at %g m: the plane in focus ends "
+                       "before %g degrees; give a smaller --field, or no --focus",
+                       view->half_field, setup->focus_m, WO_LENS_PLANE_FIELD);
     return WO_OK;
 }
 
@@ -134,33 +138,47 @@ static double front_semi(const wo_lens_view *view)
     return largest * 1.5;
 }
 
-/* Half side of the square on the first vertex plane that every ray crosses which meets the clear
-   first surface. */
+/* Of every ray that meets the clear first surface, the largest coordinate in the plane that
+   wo_lens_aim_at counts in. */
 static double reach_of(const wo_lens_view *view, double field)
 {
-    const double semi = front_semi(view);
+    const double semi = front_semi(view), angle = fabs(field) * RADIANS;
     const double x = wo_lens_sag(&view->lens.surface[0], WO_MERIDIAN_X, semi);
     const double y = wo_lens_sag(&view->lens.surface[0], WO_MERIDIAN_Y, semi);
     const double sag = fmax(isnan(x) ? semi : fabs(x), isnan(y) ? semi : fabs(y));
-    const double slope = tan(fabs(field) * RADIANS);
-    const double limited = view->lens.surface[0].semi_aperture > 0 ? 0 : fabs(pupil_z(view));
-    return semi * 1.02 + sag * (slope + semi * view->vf / 1000) + limited * slope;
+    const double pupil = view->lens.surface[0].semi_aperture > 0 ? 0 : fabs(pupil_z(view));
+    if (view->vf > 0)
+        return semi * 1.02 + sag * (tan(angle) + semi * view->vf / 1000) + pupil * tan(angle);
+    return semi * 1.02 + (sag + pupil) * sin(angle);
+}
+
+static void aim_from_infinity(const wo_lens_view *view, wo_meridian meridian, double field,
+                              double px, double py, double p[3], double d[3])
+{
+    const double across = sin(field * RADIANS), along = cos(field * RADIANS);
+    const bool in_x = meridian == WO_MERIDIAN_X;
+    const double back = 2 * front_semi(view) + 1;
+    d[0] = in_x ? across : 0;
+    d[1] = in_x ? 0 : across;
+    d[2] = along;
+    p[0] = (in_x ? px * along : px) - d[0] * back;
+    p[1] = (in_x ? py : py * along) - d[1] * back;
+    p[2] = -(in_x ? px : py) * across - d[2] * back;
 }
 
 void wo_lens_aim_at(const wo_lens_view *view, wo_meridian meridian, double field, double px,
                     double py, double p[3], double d[3])
 {
-    const double slope = tan(field * RADIANS);
-    const double sx = meridian == WO_MERIDIAN_X ? slope : 0, sy = slope - sx;
-    double back = front_semi(view) + 1;
-    d[0] = sx;
-    d[1] = sy;
-    if (view->vf > 0) {
-        const double far = 1000 / view->vf, to_plane = far - pupil_z(view);
-        d[0] = (px + sx * far) / to_plane;
-        d[1] = (py + sy * far) / to_plane;
-        back = fmin(back, to_plane);
+    if (!(view->vf > 0)) {
+        aim_from_infinity(view, meridian, field, px, py, p, d);
+        return;
     }
+    const double slope = tan(field * RADIANS), far = 1000 / view->vf;
+    const double sx = meridian == WO_MERIDIAN_X ? slope : 0, sy = slope - sx;
+    const double to_plane = far - pupil_z(view);
+    const double back = fmin(front_semi(view) + 1, to_plane);
+    d[0] = (px + sx * far) / to_plane;
+    d[1] = (py + sy * far) / to_plane;
     const double length = sqrt(1 + d[0] * d[0] + d[1] * d[1]);
     p[0] = px - d[0] * back;
     p[1] = py - d[1] * back;
@@ -270,4 +288,39 @@ double wo_lens_chief_height(const wo_lens_view *view, const wo_system *system, w
     return ray.outcome == WO_RAY_PASSED
                ? ray.p[axis] + (wo_lens_sensor_z(view) - ray.p[2]) * ray.d[axis] / ray.d[2]
                : NAN;
+}
+
+double wo_lens_chief_sideways(const wo_lens_view *view, wo_meridian meridian, double field)
+{
+    enum { HERE, MOVED, TURNED };
+    const bool in_x = meridian == WO_MERIDIAN_X;
+    const int axis = in_x ? 1 : 0;
+    const double move = 1e-3, turn = 1e-5;
+    double low, high, chief, landed[3], at_stop[3];
+    if (!wo_lens_fan(view, meridian, field, 0, &low, &high, &chief))
+        return NAN;
+    double seen = 1; /* the turn, as the object's from the entrance pupil */
+    for (int i = HERE; i <= TURNED; i++) {
+        const double across = i == MOVED ? move : 0;
+        wo_lens_ray ray = {.outcome = WO_RAY_PASSED};
+        wo_lens_aim_at(view, meridian, field, in_x ? chief : across, in_x ? across : chief, ray.p,
+                       ray.d);
+        if (view->vf > 0)
+            seen = (1000 / view->vf - pupil_z(view) + ray.p[2]) * view->vf / 1000;
+        const double length = sqrt(1 + turn * turn);
+        if (i == TURNED) {
+            ray.d[axis] += turn;
+            for (int k = 0; k < 3; k++)
+                ray.d[k] /= length;
+        }
+        wo_lens_trace(&view->system, 0, view->system.count - 1, 0,
+                      in_x ? WO_MERIDIAN_Y : WO_MERIDIAN_X, &ray);
+        if (ray.outcome != WO_RAY_PASSED)
+            return NAN;
+        at_stop[i] = ray.stop;
+        landed[i] = ray.p[axis] + (wo_lens_sensor_z(view) - ray.p[2]) * ray.d[axis] / ray.d[2];
+    }
+    /* As far aside as brings the turned ray back to the middle of the iris. */
+    const double back = (at_stop[TURNED] - at_stop[HERE]) / (at_stop[MOVED] - at_stop[HERE]);
+    return (landed[TURNED] - landed[HERE] - back * (landed[MOVED] - landed[HERE])) / (turn * seen);
 }

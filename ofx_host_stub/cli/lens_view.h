@@ -16,14 +16,18 @@ typedef struct wo_lens_view {
     wo_system system;              /* at nm */
     double nm;
     wo_first_order first[2]; /* at nm, in x and in y */
-    double f_number;         /* what is meant by it */
-    double vf;               /* dioptres from the entrance pupil to the object, 0 = infinity */
+    double f_number; /* of the axial beam: first[1].fno, or where that does not exist (an entrance
+                        pupil at infinity), what the clear radii leave */
+    double vf;       /* dioptres from the entrance pupil to the object, 0 = infinity */
     double half_field;
     double image;       /* last vertex to the sensor: the paraxial focus at nm */
     double open_semi;   /* clear radius of the surface with the iris, as the prescription has it */
     wo_meridian across; /* where the field is measured: of anamorphic lenses, the wider side */
     bool anamorphic;    /* some surface is a cylinder */
 } wo_lens_view;
+
+/* Degrees: how far out a plane at a finite distance is looked at. */
+#define WO_LENS_PLANE_FIELD 89.0
 
 extern const double wo_lens_nm[WO_LENS_LINES];
 extern const double wo_lens_fields[WO_LENS_FIELDS]; /* in parts of half_field */
@@ -48,30 +52,42 @@ double wo_lens_sensor_z(const wo_lens_view *view);
    cylinder's. */
 double wo_lens_sag(const wo_surface *surface, wo_meridian meridian, double r);
 
-/* A bundle from one object point, field degrees off the axis towards meridian. */
+/* A bundle from one object point, field degrees off the axis towards meridian. Its coordinates
+   are those of a plane in front of the lens: across the bundle through the first vertex, or the
+   plane of the first vertex for an object that is not at infinity. */
 typedef struct wo_bundle {
     wo_rays rays;            /* where they are now */
-    double *px, *py;         /* where they crossed the plane of the first vertex */
+    double *px, *py;         /* their coordinates in that plane */
     double *stop_x, *stop_y; /* NAN: never got there */
     int count;
     double area;           /* mm^2 on that plane that each ray stands for */
     double x1, y1, x2, y2; /* what they fill there */
 } wo_bundle;
 
-typedef enum wo_lattice { WO_LATTICE_GRID, WO_LATTICE_SCATTERED } wo_lattice;
-
-/* Rays that fill what passes through the lens, and a margin; not traced yet. count is reached about
-   (grid) or exactly (scattered). False: out of memory, or nothing passes. */
-bool wo_bundle_fill(const wo_lens_view *view, wo_meridian meridian, double field,
-                    wo_lattice lattice, int count, wo_bundle *bundle) WO_NODISCARD;
+/* Exactly count scattered rays that fill what passes through the lens, and a margin; not traced
+   yet. Each has a twin on the other side of the meridian. False: out of memory, or nothing passes.
+ */
+bool wo_bundle_fill(const wo_lens_view *view, wo_meridian meridian, double field, int count,
+                    wo_bundle *bundle) WO_NODISCARD;
 /* The same rays again from the start, traced through system; with outcomes. */
 void wo_bundle_trace(const wo_lens_view *view, const wo_system *system, wo_meridian meridian,
                      double field, unsigned flags, wo_bundle *bundle);
 /* Other scattered rays; turn is any number. */
-void wo_bundle_scatter(wo_bundle *bundle, int turn);
+void wo_bundle_scatter(wo_bundle *bundle, wo_meridian meridian, int turn);
 void wo_bundle_free(wo_bundle *bundle);
 
-/* One ray in the plane of the meridian, at height h on the first vertex plane. */
+/* What passes of the light of one object point, integrated over the beam to about 1e-4, in the
+   meridian where the field is measured and at nm. */
+typedef struct wo_lens_beam {
+    double flux;   /* mm^2 of the beam's cross-section; for a near object weighted with cos^4 of the
+                      angle of each ray, on the plane of the first vertex */
+    double iris;   /* mm^2 of the iris that it fills */
+    double height; /* mean height of the light on the sensor */
+} wo_lens_beam;
+/* False: nothing passes. */
+bool wo_lens_beam_make(const wo_lens_view *view, double field, wo_lens_beam *beam) WO_NODISCARD;
+
+/* One ray in the plane of the meridian, at coordinate h of the bundle's plane. */
 typedef struct wo_lens_ray {
     double p[3], d[3]; /* x y z */
     wo_outcome outcome;
@@ -89,5 +105,8 @@ bool wo_lens_fan(const wo_lens_view *view, wo_meridian meridian, double field, u
 /* Height of the chief ray on the sensor; NAN when none gets there. */
 double wo_lens_chief_height(const wo_lens_view *view, const wo_system *system, wo_meridian meridian,
                             double field);
+/* How fast that height would move across the meridian as the object does: mm for each radian in
+   which it is seen from the entrance pupil, by its size; NAN when no chief ray gets there. */
+double wo_lens_chief_sideways(const wo_lens_view *view, wo_meridian meridian, double field);
 
 #endif

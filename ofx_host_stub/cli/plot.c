@@ -306,13 +306,22 @@ void wo_plot_curve(const wo_plot *plot, const wo_pen *pen, const double *x, cons
     free(at);
 }
 
-/* About how wide a text is; UTF-8 counts by characters. */
-static double text_width(const char *text, double size)
+double wo_plot_text_width(const char *text, double size, bool bold)
 {
-    int characters = 0;
-    for (; *text; text++)
-        characters += ((unsigned char)*text & 0xC0) != 0x80;
-    return characters * size * 0.53;
+    double width = 0;
+    for (const unsigned char *s = (const unsigned char *)text; *s; s++) {
+        if ((*s & 0xC0) == 0x80)
+            continue;
+        if (*s >= 0xE0) /* may be as wide as high */
+            width += 1.1;
+        else if (strchr("WMmw@%", *s))
+            width += 1.1;
+        else if (strchr("iIjlftr1.,:;'|!()[]/ ", *s))
+            width += 0.45;
+        else
+            width += (*s >= 'A' && *s <= 'Z') || *s >= 0x80 ? 0.82 : 0.71;
+    }
+    return width * size * (bold ? 1 : 0.89);
 }
 
 void wo_plot_legend(wo_svg *svg, double x, double y, const wo_pen *pens, const char *const *names,
@@ -320,7 +329,7 @@ void wo_plot_legend(wo_svg *svg, double x, double y, const wo_pen *pens, const c
 {
     for (int i = count - 1; i >= 0; i--) {
         wo_svg_text(svg, x, y, 11, WO_ANCHOR_END, false, names[i]);
-        x -= text_width(names[i], 11) + 5;
+        x -= wo_plot_text_width(names[i], 11, false) + 5;
         wo_svg_line(svg, &pens[i], x - 22, y - 4, x, y - 4);
         x -= 22 + 12;
     }

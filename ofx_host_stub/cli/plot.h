@@ -56,6 +56,9 @@ double wo_plot_y(const wo_plot *plot, double y);
 void wo_plot_curve(const wo_plot *plot, const wo_pen *pen, const double *x, const double *y,
                    int count);
 
+/* At most how wide a text is, in a font of the usual proportions. */
+double wo_plot_text_width(const char *text, double size, bool bold);
+
 /* A row of pens and names that ends at x. */
 void wo_plot_legend(wo_svg *svg, double x, double y, const wo_pen *pens, const char *const *names,
                     int count);

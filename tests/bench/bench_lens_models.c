@@ -153,10 +153,11 @@ static void print_models(const wo_prescription *lens, const wo_lens_model *exact
     const wo_lens_model thin = {&zonal.radius, 0, exact->field_max, WO_NM_D, 0, thin_ray};
     printf("  thin %.2f px %.1f ns", model_error(&thin, exact, focal_px, 0.4), time_exact(&thin));
     if (wo_diagram_of_lens(lens, f_number, 0.4, lines_nm, (int)WO_COUNT(lines_nm), &zonal.diagram,
-                           &error) == WO_OK)
+                           &error) == WO_OK) {
+        zonal.radius = 1e-3 * zonal.diagram.radius;
         printf(", diagram %.2f px %.0f ns", model_error(&zonal_model, exact, focal_px, 0.4),
                time_exact(&zonal_model));
-    else
+    } else
         printf(", diagram: %s", error.text);
     if (wo_seidel_lens_make(lens, f_number, exact->field_max, lines_nm, (int)WO_COUNT(lines_nm),
                             &seidel, &error) == WO_OK) {

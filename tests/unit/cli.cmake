@@ -57,3 +57,13 @@ target_include_directories(test_output PRIVATE
     ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/ofx_host_stub)
 target_link_libraries(test_output PRIVATE wo_bridge wo_base wo_options cmocka m)
 add_test(NAME unit.output COMMAND test_output)
+
+# What the page of a lens says, against a tracer of the test's own.
+add_executable(test_lens_curves ${CMAKE_CURRENT_LIST_DIR}/test_lens_curves.c
+    ${cli}/lens_beam.c ${cli}/lens_bundle.c ${cli}/lens_curves.c ${cli}/lens_view.c)
+target_compile_definitions(test_lens_curves PRIVATE _POSIX_C_SOURCE=200809L)
+target_include_directories(test_lens_curves PRIVATE
+    ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests/property ${cli})
+target_link_libraries(test_lens_curves PRIVATE wo_core wo_options cmocka m)
+add_test(NAME unit.lens_curves COMMAND test_lens_curves)
+set_tests_properties(unit.lens_curves PROPERTIES TIMEOUT 300)
