@@ -18,7 +18,7 @@
 extern char **environ;
 
 enum {
-    AT_ONCE = 8,      /* describers that run beside each other, at most */
+    AT_ONCE = 4,      /* describers that run beside each other */
     RESTARTS = 50,    /* of one binary */
     BURIAL_MS = 2000, /* a killed process may take to vanish */
     WORDS_MAX = 400   /* of the last that was said on 1 and 2 */
@@ -334,10 +334,16 @@ static void finish(job *it, int status, bool known)
 
 static void look_after(job *it)
 {
-    int status = 0;
-    const pid_t gone = waitpid(it->pid, &status, WNOHANG);
-    if (gone == it->pid || (gone < 0 && errno == ECHILD)) {
-        finish(it, status, gone == it->pid);
+    siginfo_t gone = {.si_pid = 0};
+    if (waitid(P_PID, (id_t)it->pid, &gone, WEXITED | WNOHANG | WNOWAIT) != 0 && errno == ECHILD) {
+        finish(it, 0, false); /* somebody else has waited for it */
+        return;
+    }
+    if (gone.si_pid == it->pid) {
+        int status = 0;
+        kill(-it->pid, SIGKILL); /* what it has started, too; its number is not given away yet */
+        const bool known = waitpid(it->pid, &status, 0) == it->pid;
+        finish(it, status, known);
         return;
     }
     const int64_t now = now_ms();
@@ -380,12 +386,11 @@ wo_status wo_apart_describe(wo_host *host, wo_binary *const *binaries, size_t co
     job *jobs = calloc(AT_ONCE, sizeof *jobs);
     if (!jobs)
         return wo_fail(error, WO_ERR_NOMEM, "no memory to describe plugins");
-    const size_t places = wo_host_threads(host) < AT_ONCE ? wo_host_threads(host) : AT_ONCE;
     bool stop = false, closing;
     do {
         stop = stop || (config->aborted && config->aborted(config->user));
         running = 0;
-        for (size_t i = 0; i < places; i++) {
+        for (size_t i = 0; i < AT_ONCE; i++) {
             job *it = &jobs[i];
             if (!it->binary && next < count && !stop) {
                 *it = (job){.host = host, .binary = binaries[next++]};
@@ -398,7 +403,7 @@ wo_status wo_apart_describe(wo_host *host, wo_binary *const *binaries, size_t co
             }
         }
         (void)any_sleep(jobs, &closing);
-        for (size_t i = 0; i < places; i++) {
+        for (size_t i = 0; i < AT_ONCE; i++) {
             if (jobs[i].binary)
                 listen(&jobs[i]);
             if (jobs[i].binary)

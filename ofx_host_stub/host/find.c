@@ -88,8 +88,14 @@ static void tell(wo_host *host, const wo_binary *binary)
         wo_note_failure(host, "%s", catalogue->failures.items[i]);
 }
 
-/* Finds out what is in some binaries; with again also what the cache says has failed. */
-static wo_status learn(wo_host *host, wo_binary *const *binaries, size_t count, bool again,
+typedef enum doubt { /* of what the cache says */
+                     DOUBT_NOTHING,
+                     DOUBT_FAILURES,
+                     DOUBT_ALL
+} doubt;
+
+/* Finds out what is in some binaries. */
+static wo_status learn(wo_host *host, wo_binary *const *binaries, size_t count, doubt doubted,
                        wo_error *error)
 {
     size_t missing = 0;
@@ -103,7 +109,8 @@ static wo_status learn(wo_host *host, wo_binary *const *binaries, size_t count, 
             if (binary->known && binary->catalogue.failures.count == 0)
                 tell(host, binary);
         }
-        if (binary->recalled && again && binary->catalogue.failures.count) {
+        const bool failed = binary->catalogue.failures.count > 0;
+        if (binary->recalled && doubted >= (failed ? DOUBT_FAILURES : DOUBT_ALL)) {
             wo_catalogue_clear(&binary->catalogue);
             binary->known = binary->recalled = false;
         }
@@ -135,7 +142,7 @@ static bool is_found(const wo_host *host, const wo_host_found *info)
 wo_status wo_host_survey(wo_host *host, wo_error *error)
 {
     if (host->describer.count > 0)
-        WO_TRY(learn(host, host->binaries, host->binary_count, true, error));
+        WO_TRY(learn(host, host->binaries, host->binary_count, DOUBT_FAILURES, error));
     host->found_count = 0;
     for (size_t i = 0; i < host->binary_count; i++) {
         const wo_catalogue *catalogue = &host->binaries[i]->catalogue;
@@ -219,7 +226,7 @@ static bool is_namesake(const wo_binary *binary, const char *name)
 }
 
 /* Of the binaries of one folder: those that are namesakes, or those that are not. */
-static wo_status ask(wo_host *host, size_t folder, bool namesakes, bool again, match *best,
+static wo_status ask(wo_host *host, size_t folder, bool namesakes, doubt doubted, match *best,
                      wo_error *error)
 {
     wo_binary **binaries = malloc((host->binary_count + 1) * sizeof *binaries);
@@ -232,19 +239,19 @@ static wo_status ask(wo_host *host, size_t folder, bool namesakes, bool again, m
             binaries[count++] = host->binaries[i];
     wo_status status = WO_OK;
     if (host->describer.count > 0)
-        status = learn(host, binaries, count, again, error);
+        status = learn(host, binaries, count, doubted, error);
     for (size_t i = 0; i < count && status == WO_OK; i++)
         consider(best, binaries[i]);
     free(binaries);
     return status;
 }
 
-static wo_status ask_all(wo_host *host, bool again, match *best, wo_error *error)
+static wo_status ask_all(wo_host *host, doubt doubted, match *best, wo_error *error)
 {
     for (size_t folder = 0; folder <= host->folder_count && !best->item; folder++) {
-        WO_TRY(ask(host, folder, true, again, best, error));
+        WO_TRY(ask(host, folder, true, doubted, best, error));
         if (!best->item)
-            WO_TRY(ask(host, folder, false, again, best, error));
+            WO_TRY(ask(host, folder, false, doubted, best, error));
     }
     return WO_OK;
 }
@@ -324,9 +331,9 @@ wo_status wo_host_find_plugin(wo_host *host, const char *name, const wo_host_plu
     for (int attempt = 0;; attempt++) {
         match best = {.name = name};
         bool stale;
-        WO_TRY(ask_all(host, false, &best, error));
-        if (!best.item) /* perhaps one of those that had failed works by now */
-            WO_TRY(ask_all(host, true, &best, error));
+        WO_TRY(ask_all(host, DOUBT_NOTHING, &best, error));
+        if (!best.item) /* that shall not be the fault of the cache */
+            WO_TRY(ask_all(host, DOUBT_ALL, &best, error));
         if (!best.item || best.ambiguous)
             return miss(host, &best, error);
         const wo_status status = bring_here(host, &best, &stale, error);
