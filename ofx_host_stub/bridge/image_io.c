@@ -283,7 +283,7 @@ const wo_io_format *wo_io_format_of(const char *path)
     return NULL;
 }
 
-static bool is_exr(const char *path)
+bool wo_io_is_exr(const char *path)
 {
     const char *const name = strrchr(path, '/');
     const char *const dot = strrchr(name ? name : path, '.');
@@ -293,8 +293,8 @@ static bool is_exr(const char *path)
 bool wo_io_same_format(const char *path, const char *other)
 {
     const wo_io_format *const a = wo_io_format_of(path), *const b = wo_io_format_of(other);
-    if (is_exr(path) || is_exr(other))
-        return is_exr(path) && is_exr(other);
+    if (wo_io_is_exr(path) || wo_io_is_exr(other))
+        return wo_io_is_exr(path) && wo_io_is_exr(other);
     return a && b && !strcmp(a->library_name, b->library_name);
 }
 
@@ -303,7 +303,7 @@ const char *wo_io_usual_space(const char *path)
     static const struct {
         const char *library_name, *space;
     } unusual[] = {{"hdr", "linear"}, {"dpx", "KodakLog"}, {"cineon", "KodakLog"}};
-    if (is_exr(path))
+    if (wo_io_is_exr(path))
         return "linear";
     const wo_io_format *const format = wo_io_format_of(path);
     for (size_t i = 0; format && i < WO_COUNT(unusual); i++)

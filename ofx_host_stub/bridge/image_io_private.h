@@ -62,6 +62,9 @@ typedef struct wo_io_format {
 /* NULL when the extension is not known. */
 const wo_io_format *wo_io_format_of(const char *path);
 
+/* Does the extension ask for EXR, which wo_io_format_of does not know? */
+bool wo_io_is_exr(const char *path);
+
 /* Refuses cut files that the library would take for whole ones. */
 WO_NODISCARD wo_status wo_io_check_whole(const char *path, int fd, const wo_io_format *format,
                                          wo_error *error);

@@ -2,33 +2,9 @@
 /* Copyright the WideOpen authors */
 #define _XOPEN_SOURCE 700
 #include "image_io_private.h"
+#include "new_file.h"
 
-#include <errno.h>
-#include <fcntl.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <strings.h>
-#include <sys/stat.h>
-#include <time.h>
-#include <unistd.h>
-
-/* Writing: to a new file beside the wanted one, then renamed over it. */
-
-static wo_status system_failure(wo_error *error, const char *what, const char *path, int number)
-{
-    char words[80] = "";
-    if (strerror_r(number, words, sizeof words))
-        words[0] = '\0';
-    return wo_fail(error, WO_ERR_IO, "cannot %s %s: %s", what, wo_io_shown(path), words);
-}
-
-static bool is_exr(const char *path)
-{
-    const char *const name = strrchr(path, '/');
-    const char *const dot = strrchr(name ? name : path, '.');
-    return dot && !strcasecmp(dot, ".exr");
-}
+/* Writing: into a file that appears when it is complete. */
 
 static wo_status check_part(const char *path, const wo_io_part *part, uint64_t *bytes,
                             wo_error *error)
@@ -57,7 +33,7 @@ static wo_status check_request(const char *path, const wo_io_part *parts, size_t
                        wo_io_shown(path), part_count, WO_IO_MAX_PARTS);
     for (size_t i = 0; i < part_count; i++)
         WO_TRY(check_part(path, &parts[i], &bytes, error));
-    if (is_exr(path)) {
+    if (wo_io_is_exr(path)) {
         if (depth == WO_IO_BYTE || depth == WO_IO_SHORT)
             return wo_fail(error, WO_ERR_UNSUPPORTED, "%s: EXR holds half or float, no integers",
                            wo_io_shown(path));
@@ -87,84 +63,17 @@ static wo_status check_request(const char *path, const wo_io_part *parts, size_t
     return WO_OK;
 }
 
-/* Where a link points; a copy of path when it is none or points nowhere. NULL without memory. */
-static char *final_path(const char *path)
-{
-    struct stat about;
-    char *resolved = NULL;
-    if (!lstat(path, &about) && S_ISLNK(about.st_mode))
-        resolved = realpath(path, NULL);
-    return resolved ? resolved : wo_io_copy_text(path);
-}
-
-/* Creates a file of a new name in the folder of path; the name is malloc-ed. */
-static wo_status open_beside(const char *path, char **name, int *fd, wo_error *error)
-{
-    const char *const slash = strrchr(path, '/');
-    const size_t folder = slash ? (size_t)(slash - path) + 1 : 0;
-    const size_t size = folder + 64;
-    *fd = -1;
-    *name = malloc(size);
-    if (!*name)
-        return wo_fail(error, WO_ERR_NOMEM, "no memory for a file name");
-    memcpy(*name, path, folder);
-    for (unsigned attempt = 0; attempt < 1000; attempt++) {
-        struct timespec now = {0};
-        clock_gettime(CLOCK_REALTIME, &now);
-        snprintf(*name + folder, size - folder, ".wideopen-%ld-%lx-%u.tmp", (long)getpid(),
-                 (unsigned long)now.tv_nsec, attempt);
-        *fd = open(*name, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (*fd >= 0)
-            return WO_OK;
-        if (errno != EEXIST)
-            break;
-    }
-    const int number = errno;
-    free(*name);
-    *name = NULL;
-    return system_failure(error, "create a file for", path, number);
-}
-
 wo_status wo_io_write(const char *path, const wo_io_part *parts, size_t part_count,
                       wo_io_depth depth, wo_error *error)
 {
     const wo_io_format *format = NULL;
+    wo_new_file file;
     WO_TRY(check_request(path, parts, part_count, depth, &format, error));
-
-    struct stat about;
-    char *const target = final_path(path);
-    if (!target)
-        return wo_fail(error, WO_ERR_NOMEM, "no memory for a file name");
-    const bool exists = !stat(target, &about);
-    if (exists && !S_ISREG(about.st_mode)) {
-        free(target);
-        return wo_fail(error, WO_ERR_IO, "%s exists and is no ordinary file", wo_io_shown(path));
-    }
-
-    char *temporary = NULL;
-    int fd = -1;
-    wo_status status = open_beside(target, &temporary, &fd, error);
-    if (status != WO_OK) {
-        free(target);
-        return status;
-    }
+    WO_TRY(wo_new_file_begin(path, &file, error));
     const locale_t before = wo_io_plain_locale();
-    if (format)
-        status = wo_io_oiio_write(path, fd, format, parts, depth, error);
-    else
-        status = wo_io_exr_write(path, fd, parts, part_count, depth, error);
+    const wo_status status = format
+                                 ? wo_io_oiio_write(path, file.fd, format, parts, depth, error)
+                                 : wo_io_exr_write(path, file.fd, parts, part_count, depth, error);
     wo_io_restore_locale(before);
-    if (status == WO_OK && exists && fchmod(fd, about.st_mode & 0777) && errno != EPERM)
-        status = system_failure(error, "set the permissions of", path, errno);
-    if (status == WO_OK && fsync(fd) && errno != EINVAL)
-        status = system_failure(error, "write", path, errno);
-    if (close(fd) && status == WO_OK)
-        status = system_failure(error, "write", path, errno);
-    if (status == WO_OK && rename(temporary, target))
-        status = system_failure(error, "rename a finished file to", path, errno);
-    if (status != WO_OK)
-        unlink(temporary);
-    free(temporary);
-    free(target);
-    return status;
+    return wo_new_file_end(&file, status, error);
 }

@@ -180,10 +180,14 @@ double wo_lens_row(const wo_first_order *first, size_t row)
 
 static void print_text(const wo_lens_view *view, const wo_first_order *first)
 {
-    printf("%s  %s\n", view->lens.name, view->lens.title);
-    if (view->lens.source[0])
-        printf("source: %s\n", view->lens.source);
-    printf("at %.4f nm, lengths in mm\n\n", view->nm);
+    wo_put_clean(view->lens.name, stdout);
+    fputs("  ", stdout);
+    wo_put_clean(view->lens.title, stdout);
+    if (view->lens.source[0]) {
+        fputs("\nsource: ", stdout);
+        wo_put_clean(view->lens.source, stdout);
+    }
+    printf("\nat %.4f nm, lengths in mm\n\n", view->nm);
     for (size_t i = 0; i < WO_LENS_ROWS; i++) {
         char number[32];
         wo_plot_number(number, sizeof number, wo_lens_row(first, i), 4);

@@ -34,7 +34,8 @@ static int columns(const char *text)
 
 static void print_column(const char *text, int width)
 {
-    printf("%s%*s", text, width > columns(text) ? width - columns(text) : 0, "");
+    wo_put_clean(text, stdout);
+    printf("%*s", width > columns(text) ? width - columns(text) : 0, "");
 }
 
 static void version_text(const wo_host_found *found, char *text, size_t size)

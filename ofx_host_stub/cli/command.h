@@ -5,6 +5,8 @@
 
 #include "wideopen/status.h"
 
+#include <stdio.h>
+
 /* The frame of the program: a table of commands, each one function in cmd_<name>.c. */
 
 /* What a command returns: the exit code of the program. */
@@ -31,8 +33,12 @@ int wo_cmd_bench(int argc, char **argv);
 int wo_cmd_sheet(int argc, char **argv);
 int wo_cmd_json(int argc, char **argv);
 
-/* One line on stderr, with the program's name before it; data goes to stdout by printf. Any
-   thread. */
+/* Writes text that may come from a file: bytes that would steer a terminal, and such that are no
+   UTF-8, become \x1b; lines and tabs stay. */
+void wo_put_clean(const char *text, FILE *out);
+
+/* One line on stderr by wo_put_clean, with the program's name before it; data goes to stdout by
+   printf. Any thread. */
 void wo_message(const char *format, ...) WO_PRINTF(1, 2);
 
 /* The same for a mistake on the command line of command; points to its --help; gives
@@ -43,8 +49,13 @@ int wo_usage_fault(const char *command, const char *format, ...) WO_PRINTF(2, 3)
    interrupt. */
 int wo_failure(const wo_error *error);
 
-/* From the first call on, SIGINT and SIGTERM set a flag instead of ending the program; another one
-   a moment later ends it at once. Host thread only. */
+/* From now on what ends the program by a signal (an interrupt, a closed terminal, a farm's term)
+   first calls clean_up, which must be safe in a signal handler. Signals that are ignored already
+   (nohup) stay so; a file that may not grow is an error of writing. Host thread only. */
+void wo_interrupt_watch(void (*clean_up)(void));
+
+/* From the first call on, SIGINT, SIGTERM and SIGHUP set a flag instead of ending the program;
+   another one a moment later ends it at once. Host thread only. */
 void wo_interrupt_catch(void);
 
 /* True after an interrupt. user is ignored, so that it fits every abort callback. Any thread. */

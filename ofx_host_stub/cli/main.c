@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
 #include "args.h"
+#include "bridge/new_file.h"
 #include "command.h"
 #include "session.h"
 
@@ -52,6 +53,7 @@ int main(int argc, char **argv)
     if (argc > 1 && strcmp(argv[1], WO_SESSION_DESCRIBER) == 0)
         return wo_host_describer(argc - 2, argv + 2);
     keep_memory();
+    wo_interrupt_watch(wo_new_file_remove_all);
     if (argc < 2) {
         print_help(stderr);
         return WO_EXIT_USAGE;
@@ -69,7 +71,9 @@ int main(int argc, char **argv)
     for (size_t i = 0; i < WO_COUNT(commands); i++) {
         names[i] = commands[i].name;
         if (strcmp(argv[1], commands[i].name) == 0) {
-            const int code = commands[i].run(argc - 1, argv + 1);
+            int code = commands[i].run(argc - 1, argv + 1);
+            if (code == WO_EXIT_OK && wo_interrupted(NULL))
+                code = wo_failure(&(wo_error){0}); /* it came when all was nearly done */
             if (fflush(stdout) == 0 && !ferror(stdout))
                 return code;
             wo_message("cannot write to standard output: is the disk full or the pipe closed?");

@@ -291,6 +291,8 @@ wo_status wo_render_frames(wo_render_job *job, wo_error *error)
         else if (status == WO_OK && !json)
             tell_plan(job, frame);
         any = any || !frame->skipped;
+        if (status == WO_OK && wo_interrupted(NULL)) /* while it was written, too */
+            status = wo_fail(error, WO_ABORTED, "interrupted");
         job->record.seconds = wo_seconds() - start;
     }
     return status == WO_OK && !any

@@ -42,28 +42,31 @@ wo_status wo_text_read(const char *path, size_t limit, char **text, size_t *leng
 wo_status wo_text_begin(wo_text_out *out, const char *path, wo_error *error)
 {
     struct stat info;
-    out->path = path;
-    out->direct = lstat(path, &info) == 0 && !S_ISREG(info.st_mode);
-    const int used =
-        out->direct ? snprintf(out->name, sizeof out->name, "%s", path)
-                    : snprintf(out->name, sizeof out->name, "%s.%ld.tmp", path, (long)getpid());
-    if (used < 0 || (size_t)used >= sizeof out->name)
-        return failure(error, "write", path, ENAMETOOLONG);
-    out->file = fopen(out->name, "wb");
-    return out->file ? WO_OK : failure(error, "write", path, errno);
+    *out = (wo_text_out){.path = path};
+    out->direct = stat(path, &info) == 0 && !S_ISREG(info.st_mode);
+    if (out->direct) {
+        out->file = fopen(path, "wb");
+        return out->file ? WO_OK : failure(error, "write", path, errno);
+    }
+    WO_TRY(wo_new_file_begin(path, &out->there, error));
+    const int own = dup(out->there.fd); /* is closed with the stream, before the file is ended */
+    out->file = own >= 0 ? fdopen(own, "wb") : NULL;
+    if (out->file)
+        return WO_OK;
+    const wo_status status = failure(error, "write", path, errno);
+    if (own >= 0)
+        close(own);
+    return wo_new_file_end(&out->there, status, error);
 }
 
 wo_status wo_text_end(wo_text_out *out, wo_error *error)
 {
-    const int write_number = errno;
+    const int before = errno; /* of a write that failed on the way */
     const bool complete = !ferror(out->file);
     const bool closed = fclose(out->file) == 0;
-    if (complete && closed && (out->direct || rename(out->name, out->path) == 0))
-        return WO_OK;
-    const int number = complete ? errno : write_number;
-    if (!out->direct)
-        remove(out->name);
-    return failure(error, "write", out->path, number);
+    const wo_status status =
+        complete && closed ? WO_OK : failure(error, "write", out->path, complete ? errno : before);
+    return out->direct ? status : wo_new_file_end(&out->there, status, error);
 }
 
 wo_status wo_text_save(const char *path, const char *text, size_t length, wo_error *error)

@@ -3,9 +3,8 @@
 #ifndef WO_CLI_TEXT_FILE_H
 #define WO_CLI_TEXT_FILE_H
 
-#include "wideopen/status.h"
+#include "bridge/new_file.h"
 
-#include <limits.h>
 #include <stdio.h>
 
 /* Small files as a whole. */
@@ -16,13 +15,14 @@ WO_NODISCARD wo_status wo_text_read(const char *path, size_t limit, char **text,
                                     wo_error *error);
 
 /* A file on its way. It is written under another name first, so that path never holds half a file;
-   what exists and is no ordinary file (a pipe, a link, a device) is written into. Between begin and
-   end, of which the first must succeed, print to out->file; path must live until then. */
+   what exists and is no ordinary file (a pipe, a device) is written into, links are followed.
+   Between begin and end, of which the first must succeed, print to out->file; path must live until
+   then. */
 typedef struct wo_text_out {
     const char *path;
     FILE *file;
     bool direct;
-    char name[PATH_MAX];
+    wo_new_file there; /* unless direct */
 } wo_text_out;
 WO_NODISCARD wo_status wo_text_begin(wo_text_out *out, const char *path, wo_error *error);
 WO_NODISCARD wo_status wo_text_end(wo_text_out *out, wo_error *error);

@@ -7,6 +7,10 @@ add_test(NAME contract.cli
     COMMAND ${CMAKE_CURRENT_LIST_DIR}/cli.sh $<TARGET_FILE:wideopen> $<TARGET_FILE:json_check>
             ${CMAKE_CURRENT_BINARY_DIR}/cli_work)
 set_tests_properties(contract.cli PROPERTIES TIMEOUT 600 ENVIRONMENT "${cli_environment}")
+add_test(NAME contract.signals
+    COMMAND ${CMAKE_CURRENT_LIST_DIR}/signals.sh $<TARGET_FILE:wideopen>
+            ${CMAKE_CURRENT_BINARY_DIR}/signals_work)
+set_tests_properties(contract.signals PROPERTIES TIMEOUT 300 ENVIRONMENT "${cli_environment}")
 add_test(NAME contract.threads
     COMMAND ${CMAKE_CURRENT_LIST_DIR}/threads.sh $<TARGET_FILE:wideopen> $<TARGET_FILE:json_check>
             ${CMAKE_CURRENT_BINARY_DIR}/threads_work)

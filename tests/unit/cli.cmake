@@ -17,9 +17,10 @@ add_test(NAME unit.pencil_map_file COMMAND test_pencil_map_file)
 
 # Drawings: axes, escaping, files as a whole.
 add_executable(test_plot ${CMAKE_CURRENT_LIST_DIR}/test_plot.c
-    ${cli}/plot.c ${cli}/svg.c ${cli}/text_file.c)
+    ${cli}/plot.c ${cli}/svg.c ${cli}/text_file.c ${cli}/../bridge/new_file.c)
 target_compile_definitions(test_plot PRIVATE _XOPEN_SOURCE=700)
-target_include_directories(test_plot PRIVATE ${PROJECT_SOURCE_DIR})
+target_include_directories(test_plot PRIVATE
+    ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/ofx_host_stub)
 target_link_libraries(test_plot PRIVATE wo_base wo_options cmocka m)
 add_test(NAME unit.plot COMMAND test_plot)
 

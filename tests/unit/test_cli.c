@@ -309,6 +309,43 @@ static void test_near_words(void **state)
     assert_string_equal(small, "focalLe");
 }
 
+/* ------------------------------------------------------------------------------------- messages */
+
+static void test_clean_text(void **state)
+{
+    static const struct {
+        const char *given, *wanted;
+    } cases[] = {
+        {"plain \t text\n", "plain \t text\n"},
+        {"\x1b[2J\x1b]0;title\x07", "\\x1b[2J\\x1b]0;title\\x07"},
+        {"back\bspace\rreturn\x7f", "back\\x08space\\x0dreturn\\x7f"},
+        {"gr\xc3\xbc\xc3\x9f"
+         "e \xe2\x82\xac \xf0\x9f\x93\xb7",
+         "gr\xc3\xbc\xc3\x9f"
+         "e \xe2\x82\xac \xf0\x9f\x93\xb7"},
+        {"\xc2\x9b"
+         "31m",
+         "\\xc2\\x9b31m"}, /* the one character that begins as ESC [ does */
+        {"\x9b"
+         "31m",
+         "\\x9b31m"},
+        {"cut \xe2\x82", "cut \\xe2\\x82"},
+        {"\xc0\x9b\xe0\x80\x9b", "\\xc0\\x9b\\xe0\\x80\\x9b"}, /* written longer than needed */
+        {"\xff\xf8", "\\xff\\xf8"},
+    };
+    (void)state;
+    for (size_t i = 0; i < WO_COUNT(cases); i++) {
+        char text[128] = "";
+        FILE *const out = tmpfile();
+        assert_non_null(out);
+        wo_put_clean(cases[i].given, out);
+        rewind(out);
+        text[fread(text, 1, sizeof text - 1, out)] = '\0';
+        fclose(out);
+        assert_string_equal(text, cases[i].wanted);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -317,6 +354,7 @@ int main(void)
         cmocka_unit_test(test_json_paths),     cmocka_unit_test(test_json_validity),
         cmocka_unit_test(test_args),           cmocka_unit_test(test_args_refused),
         cmocka_unit_test(test_numbers),        cmocka_unit_test(test_near_words),
+        cmocka_unit_test(test_clean_text),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
 /* Copyright the WideOpen authors */
 #define _XOPEN_SOURCE 700
 #include "bridge_test.h"
+#include "new_file.h"
 
 static const char *const rgba[] = {"R", "G", "B", "A"};
 
@@ -83,14 +84,76 @@ static void hdr_is_rounded(void **state)
     wo_io_part_clear(&part);
 }
 
+static void save(const char *path)
+{
+    wo_io_part part = picture(2, 2, 3);
+    assert_ok(wo_io_write(path, &part, 1, WO_IO_AUTO, &fault));
+    wo_io_part_clear(&part);
+}
+
+static bool is_link(const char *name)
+{
+    struct stat about;
+    return lstat(in_folder(name), &about) == 0 && S_ISLNK(about.st_mode);
+}
+
+/* A link stays one, whether something is at its end yet or not. */
+static void links_are_followed(void **state)
+{
+    (void)state;
+    struct stat about;
+    assert_int_equal(symlink("middle", in_folder("first.exr")), 0);
+    assert_int_equal(symlink(in_folder("last.exr"), in_folder("middle")), 0);
+    for (int i = 0; i < 2; i++) {
+        save(in_folder("first.exr"));
+        assert_true(is_link("first.exr") && is_link("middle") && !is_link("last.exr"));
+        assert_int_equal(count_files(false), 3);
+        if (i == 0)
+            assert_int_equal(chmod(in_folder("last.exr"), 0640), 0);
+    }
+    assert_int_equal(stat(in_folder("last.exr"), &about), 0);
+    assert_int_equal(about.st_mode & 0777, 0640);
+
+    wo_io_part part = picture(2, 2, 3);
+    assert_int_equal(symlink("no-folder/x.exr", in_folder("nowhere.exr")), 0);
+    assert_fault(wo_io_write(in_folder("nowhere.exr"), &part, 1, WO_IO_AUTO, &fault), WO_ERR_IO,
+                 "nowhere.exr");
+    assert_int_equal(symlink("round.exr", in_folder("round.exr")), 0);
+    assert_fault(wo_io_write(in_folder("round.exr"), &part, 1, WO_IO_AUTO, &fault), WO_ERR_IO,
+                 "round.exr");
+    assert_true(is_link("nowhere.exr") && is_link("round.exr"));
+    wo_io_part_clear(&part);
+}
+
+/* What a signal leaves: nothing half, and what was there. */
+static void half_files_are_removed(void **state)
+{
+    (void)state;
+    enum { MANY = 20 };
+    wo_new_file files[MANY];
+    save(in_folder("old.exr"));
+    for (int i = 0; i < MANY; i++)
+        assert_ok(wo_new_file_begin(in_folder("old.exr"), &files[i], &fault));
+    assert_int_equal(count_files(false), 1 + MANY);
+    wo_new_file_remove_all();
+    assert_int_equal(count_files(false), 1 + MANY - 16); /* as many as are remembered */
+    for (int i = 0; i < MANY; i++)
+        assert_int_equal(wo_new_file_end(&files[i], WO_ABORTED, &fault), WO_ABORTED);
+    assert_int_equal(count_files(false), 1);
+    /* places are free again */
+    assert_ok(wo_new_file_begin(in_folder("old.exr"), &files[0], &fault));
+    wo_new_file_remove_all();
+    assert_int_equal(count_files(false), 1);
+    assert_int_equal(wo_new_file_end(&files[0], WO_OK, &fault), WO_ERR_IO);
+}
+
 #define TEST(name) cmocka_unit_test_setup(name, empty_folder)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(noise_is_not_mistaken),
-        TEST(tiff_with_exif_is_readable),
-        TEST(hdr_is_rounded),
+        TEST(noise_is_not_mistaken), TEST(tiff_with_exif_is_readable), TEST(hdr_is_rounded),
+        TEST(links_are_followed),    TEST(half_files_are_removed),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
