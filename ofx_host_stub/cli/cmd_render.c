@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
+#include "depth_channel.h"
 #include "picture_file.h"
 #include "render_camera.h"
 #include "render_job.h"
@@ -312,13 +313,25 @@ static int add_clip(wo_render_job *job, const char *text)
     return wo_failure(&error);
 }
 
+static bool is_depth(const char *clip_text)
+{
+    char name[128];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(clip_text, "="), clip_text);
+    return wo_is_depth_clip(name);
+}
+
 static int add_clips(wo_render_job *job)
 {
-    for (int i = 0; i < wo_args_count(job->args, "--clip"); i++) {
-        const int code = add_clip(job, wo_args_value(job->args, "--clip", i));
-        if (code != WO_EXIT_OK)
-            return code;
-    }
+    /* Depth last: whose it is says which of a file's layers it is. */
+    for (int depth = 0; depth < 2; depth++)
+        for (int i = 0; i < wo_args_count(job->args, "--clip"); i++) {
+            const char *const text = wo_args_value(job->args, "--clip", i);
+            if (is_depth(text) != (depth == 1))
+                continue;
+            const int code = add_clip(job, text);
+            if (code != WO_EXIT_OK)
+                return code;
+        }
     for (size_t i = 0; i < job->context->clip_count; i++) {
         const wo_host_clip_info *const clip = &job->context->clips[i];
         if (!clip->output && !clip->optional && !wo_inputs_find(job->inputs, clip->name))

@@ -98,13 +98,22 @@ typedef struct place {
     int likeness;
 } place;
 
-static void look(const wo_io_file *file, size_t index, const char *layer, size_t length, bool all,
-                 place *best)
+/* Is it the layer, or one that goes on after it, as layer1_depth and layer1.depth do after layer1?
+ */
+static bool belongs(const char *name, size_t length, const char *layer)
+{
+    const size_t begin = strlen(layer);
+    return length >= begin && strncasecmp(name, layer, begin) == 0 &&
+           (length == begin || name[begin] == '_' || name[begin] == '.');
+}
+
+/* The best channel of a part, of all of them or of those that belong to a layer. */
+static void look(const wo_io_file *file, size_t index, const char *layer, place *best)
 {
     const wo_io_part *const part = &file->parts[index];
     for (int i = 0; i < part->channels; i++) {
         const char *const name = part->channel_names[i];
-        if (!all && (layer_of(name) != length || strncasecmp(name, layer, length) != 0))
+        if (layer && !belongs(name, layer_of(name), layer))
             continue;
         const int like = likeness(part, name);
         if (like > best->likeness)
@@ -137,19 +146,45 @@ static bool shows_colour(const wo_io_part *part)
     return false;
 }
 
+/* The depth of a layer or a part that shows colour. */
+static void look_beside(const wo_io_file *file, const char *words, place *best)
+{
+    bool colour = false;
+    for (size_t p = 0; p < file->part_count && !best->likeness; p++) {
+        const wo_io_part *const part = &file->parts[p];
+        if (is_colour(part, words, strlen(words))) {
+            look(file, p, words, best);
+        } else if (part->name && strcasecmp(part->name, words) == 0 && shows_colour(part)) {
+            colour = true;
+            look(file, p, NULL, best);
+        }
+    }
+    for (size_t p = 0; colour && p < file->part_count && !best->likeness; p++) {
+        const char *const name = file->parts[p].name;
+        if (name && belongs(name, strlen(name), words))
+            look(file, p, NULL, best);
+    }
+}
+
 bool wo_depth_channel(const wo_io_file *file, const char *words, char *channel, size_t size)
 {
-    const size_t length = strlen(words);
     place best = {0};
-    if (length == 0 && shows_colour(&file->parts[0]))
+    if (*words)
+        look_beside(file, words, &best);
+    else if (shows_colour(&file->parts[0]))
         for (size_t p = 0; p < file->part_count; p++)
-            look(file, p, "", 0, true, &best);
-    for (size_t p = 0; length > 0 && p < file->part_count && !best.likeness; p++) {
-        const wo_io_part *const part = &file->parts[p];
-        if (is_colour(part, words, length))
-            look(file, p, words, length, false, &best);
-        else if (part->name && strcasecmp(part->name, words) == 0 && shows_colour(part))
-            look(file, p, "", 0, true, &best);
-    }
+            look(file, p, NULL, &best);
     return best.likeness > 0 && name_it(file, &best, channel, size);
+}
+
+bool wo_colour_of_depth(const char *clip, char *colour, size_t size)
+{
+    const size_t length = strlen(clip);
+    if (!wo_is_depth_clip(clip))
+        return false;
+    const int written = strcmp(clip, "Depth") == 0 ? snprintf(colour, size, "Source")
+                        : strncmp(clip, "Depth", 5) == 0
+                            ? snprintf(colour, size, "Layer%s", clip + 5)
+                            : snprintf(colour, size, "%.*s", (int)(length - 5), clip);
+    return written > 0 && (size_t)written < size;
 }

@@ -251,6 +251,18 @@ int wo_input_stand_in(const wo_input *input, int frame)
     return missing == WO_MISSING_HOLD ? there.held : there.nearest;
 }
 
+/* Of a file of several layers the one that belongs to what the clip is the depth of. */
+static bool find_beside_colour(const wo_input *input, const wo_io_file *file, char *channel,
+                               size_t size)
+{
+    char name[128];
+    const wo_input *const colour = wo_colour_of_depth(input->clip->name, name, sizeof name)
+                                       ? wo_inputs_find(input->inputs, name)
+                                       : NULL;
+    return !*input->channels && colour && strcmp(colour->pattern, input->pattern) == 0 &&
+           *colour->channels && wo_depth_channel(file, colour->channels, channel, size);
+}
+
 /* Depth of a file that shows a colour by itself. */
 static wo_status find_depth(wo_input *input, int frame, wo_error *error)
 {
@@ -260,7 +272,8 @@ static wo_status find_depth(wo_input *input, int frame, wo_error *error)
         wo_io_frame_path(input->pattern, frame, path, sizeof path, NULL) != WO_OK ||
         wo_io_read(path, true, &file, NULL) != WO_OK)
         return WO_OK; /* reading its pixels will say why */
-    input->found = wo_depth_channel(file, input->channels, channel, sizeof channel);
+    input->found = find_beside_colour(input, file, channel, sizeof channel) ||
+                   wo_depth_channel(file, input->channels, channel, sizeof channel);
     wo_io_file_destroy(&file);
     if (!input->found)
         return WO_OK;

@@ -62,6 +62,17 @@ value report.json warnings.0.key depth-colour
 blur 0 $scene $scene:rgba green.exr --set depthChannel=green
 quiet
 
+# Of several layers the one that is seen, in whatever order the clips come.
+expect 0 footage still-life -o layered --size 96x64 --layers 3 --no-progress
+layers=layered/layers.exr
+for k in 1 2; do
+    blur 0 $layers:layer$k $layers:layer${k}_depth named.exr
+    expect 0 render LensBlur --clip Depth=$layers --clip Source=$layers:layer$k -o found.exr \
+        --set method=rays --set samples=4 --no-progress --bits float
+    says 'clip Depth: channel .*Z of'
+    same named.exr found.exr
+done
+
 # -------------------------------------------------------------------------- depth that cannot be it
 
 change $scene negative.exr times=-1

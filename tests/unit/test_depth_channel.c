@@ -65,7 +65,14 @@ static const struct {
     {"layer1.R layer1.G layer1.B layer1.Z layer2.R layer2.G layer2.B layer2.Z", "layer2",
      "layer2.Z"},
     {"layer1.R layer1.G layer1.B layer1_depth.Z", "layer1_depth", NULL},
-    {"layer1.R layer1.G layer1.B layer1_depth.Z", "layer1", NULL},
+    {"layer1.R layer1.G layer1.B layer1_depth.Z", "layer1", "layer1_depth.Z"},
+    {"a.R a.G a.B a.Z b.R b.G b.B b.Z", "b", "b.Z"},
+    {"b.R b.G b.B a.Z", "b", NULL}, /* whose depth it is */
+    {"b.R b.G b.B b.depth.V a.depth.V", "b", "b.depth.V"},
+    {"layer1.R layer1.G layer1.B layer10.Z", "layer1", NULL},
+    {"layer1: R G B A; layer1_depth: Z; layer2: R G B A", "layer1", "Z"},
+    {"layer1: R G B A; layer2_depth: Z; layer2: R G B A", "layer2", "Z"},
+    {"layer1_depth: Z; layer2: R G B A; layer2_depth: Z", "layer2", "layer2_depth:Z"},
     {"R G B Z", "R", NULL},
     {"R G B Z", "R,G,B", NULL},
     {"R G B Z P.X P.Y P.Z", "P", NULL},
@@ -113,6 +120,14 @@ static void clips_of_depth_are_known_by_name(void **state)
     assert_false(wo_is_depth_clip("Source"));
     assert_false(wo_is_depth_clip("Mask"));
     assert_false(wo_is_depth_clip("Deep"));
+    char name[16];
+    assert_true(wo_colour_of_depth("Depth", name, sizeof name));
+    assert_string_equal(name, "Source");
+    assert_true(wo_colour_of_depth("Depth3", name, sizeof name));
+    assert_string_equal(name, "Layer3");
+    assert_true(wo_colour_of_depth("BackgroundDepth", name, sizeof name));
+    assert_string_equal(name, "Background");
+    assert_false(wo_colour_of_depth("Mask", name, sizeof name));
 }
 
 static void grey_is_no_colour(void **state)
