@@ -43,6 +43,10 @@ typedef struct wo_render_job {
     size_t frame_index;
 } wo_render_job;
 
+/* Adds what --clip says, and checks that nothing is missing; gives an exit code, and has said why.
+ */
+int wo_render_add_clips(wo_render_job *job);
+
 /* Makes the project and an instance in it, with its clips connected. */
 WO_NODISCARD wo_status wo_render_make_instance(wo_render_job *job, wo_error *error);
 
