@@ -89,19 +89,18 @@ static void describe_input(wo_port *port, const wo_host_project *project)
 
 static int32_t output_components(const wo_host_instance *instance, const wo_port *output)
 {
-    int32_t components = 4;
+    int32_t components = 4, most = 0;
     const wo_port *source = wo_object_port(&instance->object, kOfxImageEffectSimpleSourceClipName);
-    bool any = false, colour = false;
     for (size_t i = 0; i < instance->object.port_count; i++) {
         const wo_port *port = instance->object.ports[i];
-        any = any || port->connected;
-        colour = colour || (port->connected && port->components >= 3);
+        if (port->connected && port->components > most)
+            most = port->components;
     }
     if (strcmp(instance->context->short_name, "Filter") == 0 && source && source->connected)
         components = source->components;
     else if (strcmp(instance->context->short_name, "General") == 0)
-        components = colour || !any ? 4 : 1;
-    if (!any)
+        components = most;
+    if (most == 0)
         return wo_port_components(output);
     if (!wo_props_has_text(&output->props, kOfxImageEffectPropSupportedComponents,
                            wo_components_text(components)))

@@ -173,7 +173,8 @@ static const char *const instance_writes[] = {
     kOfxParamPropMin,          kOfxParamPropMax,        kOfxParamPropDisplayMin,
     kOfxParamPropDisplayMax,   kOfxParamPropDataPtr,    kOfxParamPropEvaluateOnChange,
     kOfxParamPropChoiceOption, kOfxParamPropChoiceEnum, kOfxParamPropChoiceOrder,
-    kOfxParamPropGroupOpen,
+    kOfxParamPropGroupOpen,    kOfxParamPropDefault,    kOfxParamPropShowTimeMarker,
+    kOfxParamPropIncrement,    kOfxParamPropDigits,
 };
 
 /* Defaults of positions and sizes may be given as fractions of the project. */

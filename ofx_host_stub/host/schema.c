@@ -413,6 +413,7 @@ bool wo_schema_param(wo_props *props, const char *type, const char *name)
     case WO_HOST_PARAM_STR_CHOICE:
         wo_props_add_one(props, kOfxParamPropChoiceOption, WO_PROP_STRING, 0, true);
         wo_props_add_one(props, kOfxParamPropChoiceEnum, WO_PROP_STRING, 0, true);
+        wo_props_add_one(props, kOfxParamPropChoiceOrder, WO_PROP_INT, 0, true);
         break;
     case WO_HOST_PARAM_STRING:
         ADD(props, param_string_rows);

@@ -192,6 +192,38 @@ static void clips_say_what_would_come(void **state)
     free(one.image.data);
 }
 
+/* Where the plugin chooses, the Output has as many components at first as the inputs have at most:
+   plugins that copy one into the other do not write past the end. */
+static void the_output_follows_all_inputs(void **state)
+{
+    (void)state;
+    const struct {
+        int32_t source, mask;
+        const char *output;
+    } rows[] = {{3, 0, "Output 1 " SAME("RGB") OPAQUE},
+                {3, 1, "Output 1 " SAME("RGB") OPAQUE},
+                {4, 0, "Output 1 " SAME("RGBA") UNPREMULTIPLIED},
+                {0, 0, "Output 1 " SAME("RGB") PREMULTIPLIED}};
+    for (size_t i = 0; i < WO_COUNT(rows); i++) {
+        wo_host *host = open_host();
+        wo_host_instance *instance = create(host, "General");
+        wo_host_still stills[2] = {{.pixel_aspect = 1}, {.pixel_aspect = 1}};
+        const int32_t counts[2] = {rows[i].source, rows[i].mask};
+        for (int k = 0; k < 2; k++) {
+            if (counts[k] == 0)
+                continue;
+            stills[k].image = fixture_picture((wo_rect){0, 0, 4, 4}, counts[k], 1);
+            connect(instance, k ? "Mask" : "Source", &stills[k]);
+        }
+        press(instance, "tell");
+        assert_non_null(strstr(said, rows[i].output));
+        fixture_no_violations(host);
+        wo_host_destroy(&host);
+        free(stills[0].image.data);
+        free(stills[1].image.data);
+    }
+}
+
 static void own_changes_arrive_in_their_order(void **state)
 {
     (void)state;
@@ -220,6 +252,7 @@ int main(void)
         cmocka_unit_test(rights_are_granted),
         cmocka_unit_test(extensions_are_noted_once),
         cmocka_unit_test(clips_say_what_would_come),
+        cmocka_unit_test(the_output_follows_all_inputs),
         cmocka_unit_test(own_changes_arrive_in_their_order),
         cmocka_unit_test(threads_may_outlive_the_plugin),
     };

@@ -57,7 +57,8 @@ static OfxStatus describe(OfxImageEffectHandle effect)
 static OfxStatus describe_in_context(OfxImageEffectHandle effect)
 {
     static const char *const source[] = {kOfxImageComponentRGB, kOfxImageComponentRGBA};
-    static const char *const params[] = {"a", "b", "c"};
+    static const char *const params[] = {"a", "b", "c"}, *const labels[] = {"The a", "The b"};
+    static const int order[] = {2, 1};
     OfxPropertySetHandle p = define_clip(effect, kOfxImageEffectSimpleSourceClipName, false);
     ofx.prop->propSetStringN(p, kOfxImageEffectPropSupportedComponents, 2, source);
     p = define_clip(effect, "Mask", true);
@@ -66,6 +67,11 @@ static OfxStatus describe_in_context(OfxImageEffectHandle effect)
     ofx.prop->propSetStringN(p, kOfxImageEffectPropSupportedComponents, 2, source);
     for (int i = 0; i < 3; i++)
         define_param(effect, kOfxParamTypeDouble, params[i]);
+    const OfxPropertySetHandle keyed = define_param(effect, kOfxParamTypeStrChoice, "keyed");
+    must(ofx.prop->propSetStringN(keyed, kOfxParamPropChoiceOption, 2, labels), kOfxStatOK);
+    must(ofx.prop->propSetStringN(keyed, kOfxParamPropChoiceEnum, 2, params), kOfxStatOK);
+    must(ofx.prop->propSetIntN(keyed, kOfxParamPropChoiceOrder, 2, order), kOfxStatOK);
+    must(ofx.prop->propSetString(keyed, kOfxParamPropDefault, 0, "b"), kOfxStatOK);
     define_param(effect, kOfxParamTypePushButton, "tell");
     define_param(effect, kOfxParamTypePushButton, "change");
     define_param(effect, kOfxParamTypePushButton, "memory");
@@ -164,6 +170,10 @@ static void dress(OfxImageEffectHandle effect, OfxStatus wanted)
     must(ofx.prop->propSetDouble(p, kOfxParamPropMax, 0, 5), wanted);
     must(ofx.prop->propSetDouble(p, kOfxParamPropDisplayMin, 0, 0), wanted);
     must(ofx.prop->propSetDouble(p, kOfxParamPropDisplayMax, 0, 4), wanted);
+    must(ofx.prop->propSetDouble(p, kOfxParamPropDefault, 0, 1), wanted);
+    must(ofx.prop->propSetDouble(p, kOfxParamPropIncrement, 0, 0.5), wanted);
+    must(ofx.prop->propSetInt(p, kOfxParamPropDigits, 0, 1), wanted);
+    must(ofx.prop->propSetInt(p, kOfxParamPropShowTimeMarker, 0, 1), wanted);
     must(ofx.prop->propSetInt(p, kOfxParamPropEnabled, 0, 0), wanted);
     must(ofx.prop->propSetInt(p, kOfxParamPropSecret, 0, 1), wanted);
 }
