@@ -22,7 +22,11 @@ static bool zonal_ray(const void *self, double h, const double u[2], double nm, 
 
 wo_lens_model wo_zonal_lens_model(const wo_zonal_lens *lens)
 {
-    return (wo_lens_model){lens, lens->cats_eye != 0, lens->half_field, WO_NM_D, 0, zonal_ray};
+    return (wo_lens_model){.self = lens,
+                           .clips = lens->cats_eye != 0,
+                           .field_max = lens->half_field,
+                           .reference_nm = WO_NM_D,
+                           .ray = zonal_ray};
 }
 
 /* Welford 1986, 6.5: transverse aberrations of third order. Distortion is left out: the field point
@@ -56,7 +60,8 @@ static bool seidel_ray(const void *self, double h, const double u[2], double nm,
 
 wo_lens_model wo_seidel_lens_model(const wo_seidel_lens *lens)
 {
-    return (wo_lens_model){lens, 0, lens->half_field, WO_NM_D, 0, seidel_ray};
+    return (wo_lens_model){
+        .self = lens, .field_max = lens->half_field, .reference_nm = WO_NM_D, .ray = seidel_ray};
 }
 
 static wo_first_order order_at(const wo_prescription *lens, double nm)

@@ -1,185 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
-#include "optics/lens_model.h"
+#include "optics/lens_aim.h"
 
 #include <math.h>
-
-/* A ray in the lens: place and direction. */
-typedef struct beam {
-    double p[3], d[3];
-} beam;
-
-static bool through(const wo_system *system, int first, int last, bool reverse, beam *b)
-{
-    if (first > last)
-        return true;
-    uint8_t outcome;
-    const wo_rays rays = {&b->p[0], &b->p[1], &b->p[2], &b->d[0],
-                          &b->d[1], &b->d[2], NULL,     &outcome};
-    wo_system_trace(system, first, last, reverse, 0, &rays, 1, NULL, NULL);
-    return outcome == WO_RAY_PASSED;
-}
-
-static beam from_iris(const wo_exact_lens *lens, const double s[2], const double slope[2],
-                      bool reverse)
-{
-    const double n = (reverse ? -1 : 1) / sqrt(1 + slope[0] * slope[0] + slope[1] * slope[1]);
-    const double z = lens->reference.surface[lens->reference.stop].z;
-    return (beam){{s[0], s[1], z}, {slope[0] * n, slope[1] * n, n}};
-}
-
-static void run_to(beam *b, double z)
-{
-    const double t = (z - b->p[2]) / b->d[2];
-    for (int k = 0; k < 3; k++)
-        b->p[k] += t * b->d[k];
-}
-
-/* Where a ray that leaves the iris lands on the sensor; slopes are those at the iris. */
-static bool land(const wo_exact_lens *lens, const wo_system *system, const double s[2],
-                 const double slope[2], beam *out)
-{
-    *out = from_iris(lens, s, slope, false);
-    if (!through(system, system->stop, system->count - 1, false, out) || !(out->d[2] > 0))
-        return false;
-    run_to(out, lens->sensor_z);
-    return isfinite(out->p[0]) && isfinite(out->p[1]);
-}
-
-/* The same ray, followed to the scene; at the plane of the entrance pupil. */
-static bool look(const wo_exact_lens *lens, const wo_system *system, const double s[2],
-                 const double slope[2], beam *out)
-{
-    *out = from_iris(lens, s, slope, true);
-    if (!through(system, 0, system->stop - 1, true, out) || !(out->d[2] < 0))
-        return false;
-    run_to(out, lens->ep_z);
-    return isfinite(out->p[0]) && isfinite(out->p[1]);
-}
-
-/* Where a ray crosses the plane of focus, seen from the scene's origin. */
-static double seen_at_focus(const wo_exact_lens *lens, const beam *b)
-{
-    return -b->d[0] / b->d[2] + b->p[0] * 1e-3 * lens->vf;
-}
-
-/* Slope at the middle of the iris whose ray shows tangent h in the plane of focus, in the reference
-   wavelength (the secant method from the paraxial value). */
-static bool chief(const wo_exact_lens *lens, double h, double *slope)
-{
-    static const double middle[2] = {0, 0};
-    double x0 = 0;
-    double f0 = -h;
-    beam b;
-    double s[2] = {1e-5, 0};
-    if (!look(lens, &lens->reference, middle, s, &b))
-        return false;
-    const double rate = seen_at_focus(lens, &b) / 1e-5;
-    double x1 = h / rate;
-    for (int i = 0; i < 60; i++) {
-        s[0] = x1;
-        if (!look(lens, &lens->reference, middle, s, &b)) {
-            x1 = 0.5 * (x0 + x1);
-            continue;
-        }
-        const double f1 = seen_at_focus(lens, &b) - h;
-        if (fabs(f1) < 1e-13 * (1 + h)) {
-            *slope = x1;
-            return true;
-        }
-        if (f1 == f0)
-            return false;
-        const double next = x1 - f1 * (x1 - x0) / (f1 - f0);
-        x0 = x1;
-        f0 = f1;
-        x1 = next;
-    }
-    return false;
-}
-
-/* Newton's method in the two slopes, for a ray from s that lands at (x, 0). jacobian: of the
-   landing place by the slopes. */
-static bool aim(const wo_exact_lens *lens, const wo_system *system, const double s[2], double x,
-                double slope[2], double *jacobian, beam *landed)
-{
-    const double step = 1e-6;
-    for (int i = 0; i < 40; i++) {
-        beam px;
-        beam py;
-        if (!land(lens, system, s, slope, landed)) {
-            slope[0] *= 0.9;
-            slope[1] *= 0.9;
-            continue;
-        }
-        const double beside[2] = {slope[0] + step, slope[1]};
-        const double above[2] = {slope[0], slope[1] + step};
-        if (!land(lens, system, s, beside, &px) || !land(lens, system, s, above, &py))
-            return false;
-        const double j[4] = {(px.p[0] - landed->p[0]) / step, (py.p[0] - landed->p[0]) / step,
-                             (px.p[1] - landed->p[1]) / step, (py.p[1] - landed->p[1]) / step};
-        *jacobian = j[0] * j[3] - j[1] * j[2];
-        const double ex = landed->p[0] - x;
-        const double ey = landed->p[1];
-        if (ex * ex + ey * ey < 1e-24 * (1 + x * x))
-            return true;
-        if (!(fabs(*jacobian) > 0))
-            return false;
-        double dx = (j[3] * ex - j[1] * ey) / *jacobian;
-        double dy = (j[0] * ey - j[2] * ex) / *jacobian;
-        const double longest = fmax(fabs(dx), fabs(dy));
-        if (longest > 0.5) {
-            dx *= 0.5 / longest;
-            dy *= 0.5 / longest;
-        }
-        slope[0] -= dx;
-        slope[1] -= dy;
-        if (longest < 1e-15)
-            return true;
-    }
-    return false;
-}
-
-/* The same for a ray whose slope is that of the middle of the iris so far. Far out a second ray
-   from s may land at the same place, near to grazing some surface; where Newton's method finds that
-   one (its jacobian is negative) or none, the way there goes over points between. */
-static bool aim_from_middle(const wo_exact_lens *lens, const wo_system *system, const double s[2],
-                            double x, double slope[2], double *jacobian, beam *landed)
-{
-    enum { STEPS = 8 };
-    double direct[2] = {slope[0], slope[1]};
-    if (aim(lens, system, s, x, direct, jacobian, landed) && *jacobian > 0) {
-        slope[0] = direct[0];
-        slope[1] = direct[1];
-        return true;
-    }
-    for (int i = 1; i <= STEPS; i++) {
-        const double part = (double)i / STEPS;
-        const double between[2] = {part * s[0], part * s[1]};
-        if (!aim(lens, system, between, x, slope, jacobian, landed) || !(*jacobian > 0))
-            return false;
-    }
-    return true;
-}
-
-/* Squares of the relative radii at the surfaces that clip. */
-static bool clip_of(const wo_exact_lens *lens, const wo_system *system, const double s[2],
-                    const double slope[2], double clip[WO_MODEL_CLIPS])
-{
-    for (int side = 0; side < 2; side++) {
-        const bool reverse = side == 1;
-        beam b = from_iris(lens, s, slope, reverse);
-        const int count = reverse ? system->stop : system->count - system->stop;
-        for (int k = 0; k < count; k++) {
-            const int at = reverse ? system->stop - 1 - k : system->stop + k;
-            if (!through(system, at, at, reverse, &b))
-                return false;
-            for (int c = 0; c < lens->clips; c++)
-                if (lens->clip_surface[c] == at)
-                    clip[c] = (b.p[0] * b.p[0] + b.p[1] * b.p[1]) / system->surface[at].semi2;
-        }
-    }
-    return true;
-}
 
 static const wo_system *system_at(const wo_exact_lens *lens, double nm)
 {
@@ -190,36 +13,77 @@ static const wo_system *system_at(const wo_exact_lens *lens, double nm)
     return best;
 }
 
-static bool exact_ray(const void *self, double h, const double u[2], double nm, wo_model_ray *ray)
+/* The rest of a ray that is aimed: the squares of its relative radii at the surfaces that clip, and
+   the scene's end of it, at the plane of the entrance pupil. */
+static bool finish(const wo_exact_lens *lens, const wo_system *system, const double s[2],
+                   const double slope[2], double clip[WO_MODEL_CLIPS], wo_beam *out)
 {
-    const wo_exact_lens *lens = self;
-    const wo_system *system = system_at(lens, nm);
-    static const double middle[2] = {0, 0};
-    double start;
-    beam b;
-    if (!chief(lens, h, &start))
+    for (int side = 0; side < 2; side++) {
+        const bool reverse = side == 1;
+        *out = wo_beam_from_iris(lens, s, slope, reverse);
+        const int count = reverse ? system->stop : system->count - system->stop;
+        for (int k = 0; k < count; k++) {
+            const int at = reverse ? system->stop - 1 - k : system->stop + k;
+            if (!wo_beam_through(system, at, at, reverse, out))
+                return false;
+            for (int c = 0; c < lens->clips; c++)
+                if (lens->clip_surface[c] == at)
+                    clip[c] =
+                        (out->p[0] * out->p[0] + out->p[1] * out->p[1]) / system->surface[at].semi2;
+        }
+    }
+    if (!(out->d[2] < 0))
         return false;
-    double slope[2] = {start, 0};
-    if (!land(lens, &lens->reference, middle, slope, &b))
+    wo_beam_run_to(out, lens->ep_z);
+    return isfinite(out->p[0]) && isfinite(out->p[1]);
+}
+
+static bool ray_of(const wo_exact_lens *lens, const wo_system *system, double h, const double s[2],
+                   const wo_aimed *aimed, wo_model_ray *ray)
+{
+    wo_beam out;
+    if (!finish(lens, system, s, aimed->slope, ray->clip, &out))
         return false;
-    const double x = b.p[0];
-    const double s[2] = {lens->iris * u[0], lens->iris * u[1]};
-    double jacobian = 1;
-    if (!aim_from_middle(lens, system, s, x, slope, &jacobian, &b))
-        return false;
-    beam out;
-    if (!look(lens, system, s, slope, &out))
-        return false;
-    ray->b[0] = out.p[0] * 1e-3;
-    ray->b[1] = out.p[1] * 1e-3;
-    ray->a[0] = seen_at_focus(lens, &out) - h;
-    ray->a[1] = -out.d[1] / out.d[2] + ray->b[1] * lens->vf;
+    for (int k = 0; k < 2; k++) {
+        ray->b[k] = out.p[k] * 1e-3;
+        ray->a[k] = -out.d[k] / out.d[2] + ray->b[k] * lens->vf;
+    }
+    ray->a[0] -= h;
     /* Etendue: the iris element's area times the projected solid angle in which it sees the sensor
        element, dp dq / (1 + p^2 + q^2)^2 for slopes p and q. */
+    const double *const slope = aimed->slope;
     const double square = 1 + slope[0] * slope[0] + slope[1] * slope[1];
-    ray->weight = fabs(lens->axis_jacobian / jacobian) / (square * square);
-    return isfinite(ray->a[0]) && isfinite(ray->a[1]) && isfinite(ray->weight) &&
-           clip_of(lens, system, s, slope, ray->clip);
+    ray->weight = fabs(lens->axis_jacobian / aimed->jacobian) / (square * square);
+    return isfinite(ray->a[0]) && isfinite(ray->a[1]) && isfinite(ray->weight);
+}
+
+static void exact_rays(const void *self, double h, const double *nm, int lines,
+                       const double (*u)[2], int count, wo_model_ray *out)
+{
+    const wo_exact_lens *lens = self;
+    static const double centre[2] = {0, 0};
+    wo_aim_target target;
+    wo_aimed middle[WO_LINES_MAX];
+    if (!wo_aim_at_field(lens, h, &target))
+        return;
+    for (int k = 0; k < lines; k++)
+        if (!wo_aim(lens, system_at(lens, nm[k]), &target, &target.middle, NULL, centre,
+                    &middle[k]))
+            return;
+    for (int i = 0; i < count; i++) {
+        const double s[2] = {lens->iris * u[i][0], lens->iris * u[i][1]};
+        wo_aimed aimed = middle[0];
+        bool all = true;
+        for (int k = 0; k < lines && all; k++) {
+            const wo_system *system = system_at(lens, nm[k]);
+            const wo_aimed before = aimed;
+            wo_model_ray *const ray = &out[(size_t)k * (size_t)count + (size_t)i];
+            all = wo_aim(lens, system, &target, &middle[k], k > 0 ? &before : NULL, s, &aimed) &&
+                  ray_of(lens, system, h, s, &aimed, ray);
+        }
+        for (int k = 0; k < lines && !all; k++)
+            out[(size_t)k * (size_t)count + (size_t)i].weight = 0;
+    }
 }
 
 /* The surfaces outside whose clear radius a ray falls, one bit each; the iris does not count. */
@@ -228,11 +92,11 @@ static uint64_t blocked_by(const wo_exact_lens *lens, const double s[2], const d
     const wo_system *const system = &lens->reference;
     uint64_t mask = 0;
     for (int side = 0; side < 2; side++) {
-        beam b = from_iris(lens, s, slope, side == 1);
+        wo_beam b = wo_beam_from_iris(lens, s, slope, side == 1);
         const int count = side ? system->stop : system->count - system->stop;
         for (int i = 0; i < count; i++) {
             const int at = side ? system->stop - 1 - i : system->stop + i;
-            if (!through(system, at, at, side == 1, &b))
+            if (!wo_beam_through(system, at, at, side == 1, &b))
                 break;
             const double r2 = b.p[0] * b.p[0] + b.p[1] * b.p[1];
             if (at != system->stop && r2 > system->surface[at].semi2)
@@ -250,20 +114,15 @@ static void choose_clips(wo_exact_lens *lens)
     uint64_t masks[(FIELDS + 1) * PLACES];
     int count = 0;
     for (int f = 0; f <= FIELDS; f++) {
-        double slope[2] = {0, 0};
-        static const double middle[2] = {0, 0};
-        beam b;
-        if (!chief(lens, lens->field_max * f / FIELDS, &slope[0]) ||
-            !land(lens, &lens->reference, middle, slope, &b))
+        wo_aim_target target;
+        if (!wo_aim_at_field(lens, lens->field_max * f / FIELDS, &target))
             continue;
-        const double x = b.p[0];
         for (int k = 0; k < PLACES; k++) {
             const double r = lens->iris * sqrt((k + 1.0) / PLACES);
             const double s[2] = {r * cos(2.399963 * k), r * sin(2.399963 * k)};
-            double aimed[2] = {slope[0], 0};
-            double jacobian;
-            if (aim_from_middle(lens, &lens->reference, s, x, aimed, &jacobian, &b))
-                masks[count++] = blocked_by(lens, s, aimed);
+            wo_aimed aimed;
+            if (wo_aim(lens, &lens->reference, &target, &target.middle, NULL, s, &aimed))
+                masks[count++] = blocked_by(lens, s, aimed.slope);
         }
     }
     for (lens->clips = 0; lens->clips < WO_MODEL_CLIPS; lens->clips++) {
@@ -285,16 +144,19 @@ static void choose_clips(wo_exact_lens *lens)
 /* The largest field, up to half_field, whose chief ray gets through the lens. */
 static double reachable_field(const wo_exact_lens *lens, double half_field)
 {
-    static const double middle[2] = {0, 0};
-    enum { STEPS = 64 };
+    enum { STEPS = 64, HALVINGS = 8 };
+    wo_aim_target target;
     double reached = 0;
+    double step = half_field / STEPS;
     for (int i = 1; i <= STEPS; i++) {
-        const double h = half_field * i / STEPS;
-        double slope[2] = {0, 0};
-        beam b;
-        if (!chief(lens, h, &slope[0]) || !land(lens, &lens->reference, middle, slope, &b))
+        if (!wo_aim_at_field(lens, half_field * i / STEPS, &target))
             break;
-        reached = h;
+        reached = half_field * i / STEPS;
+    }
+    for (int i = 0; i < HALVINGS && reached < half_field; i++) {
+        step *= 0.5;
+        if (wo_aim_at_field(lens, reached + step, &target))
+            reached += step;
     }
     return reached;
 }
@@ -337,9 +199,11 @@ wo_status wo_exact_lens_make(const wo_prescription *lens, double f_number, doubl
     if (out->field_max == 0)
         return wo_fail(error, WO_ERR_UNSUPPORTED, "%s lets no light through", lens->name);
     choose_clips(out);
-    wo_model_ray axis;
-    static const double middle[2] = {0, 0};
-    if (!exact_ray(out, 0, middle, WO_NM_D, &axis))
+    static const double middle[1][2] = {{0, 0}};
+    static const double line[1] = {WO_NM_D};
+    wo_model_ray axis = {.weight = 0};
+    exact_rays(out, 0, line, 1, middle, 1, &axis);
+    if (!(axis.weight > 0))
         return wo_fail(error, WO_ERR_UNSUPPORTED, "%s lets no light through its middle",
                        lens->name);
     out->axis_jacobian = 1 / axis.weight;
@@ -348,5 +212,9 @@ wo_status wo_exact_lens_make(const wo_prescription *lens, double f_number, doubl
 
 wo_lens_model wo_exact_lens_model(const wo_exact_lens *lens)
 {
-    return (wo_lens_model){lens, lens->clips, lens->field_max, WO_NM_D, 0, exact_ray};
+    return (wo_lens_model){.self = lens,
+                           .clips = lens->clips,
+                           .field_max = lens->field_max,
+                           .reference_nm = WO_NM_D,
+                           .rays = exact_rays};
 }

@@ -16,7 +16,8 @@ enum { WO_MODEL_CLIPS = 6 };
 typedef struct wo_model_ray {
     double a[2];   /* tangent, beside the field point's own: aberration in the plane of focus */
     double b[2];   /* m */
-    double weight; /* light through this part of the iris, relative to the middle on the axis */
+    double weight; /* light through this part of the iris, relative to the middle on the axis; 0:
+                      there is no such ray */
     double clip[WO_MODEL_CLIPS]; /* squares of radius over clear radius where it matters; any above
                                     1 blocks the ray */
 } wo_model_ray;
@@ -27,17 +28,28 @@ typedef struct wo_lens_model {
     double field_max;    /* tangent; beyond it no light arrives */
     double reference_nm; /* the wavelength that the focus is set with */
     double refocus; /* dioptres: the lens is focused so much nearer than its paraxial rays say */
-    /* Field point at tangent h along +x, iris coordinates u in the unit disc. false: there is no
-       such ray. Any thread. */
+    /* One of these two; wo_lens_model_rays calls it. Field point at tangent h along +x, u in the
+       unit disc of the iris. Any thread. */
     bool (*ray)(const void *self, double h, const double u[2], double nm, wo_model_ray *ray);
+    /* Many places in each of the wavelengths at once, where that is cheaper: out[lines][count], of
+       zeros. A place without a ray in one of them has none in any. */
+    void (*rays)(const void *self, double h, const double *nm, int lines, const double (*u)[2],
+                 int count, wo_model_ray *out);
 } wo_lens_model;
 
 /* Is it a valid prescription, and of revolution? */
 WO_NODISCARD wo_status wo_lens_model_check(const wo_prescription *lens, wo_error *error);
 
-/* The model's ray with its refocus. */
+/* Rays of a field point through count places in each of the wavelengths, with the model's refocus:
+   out[lines][count]. */
+void wo_lens_model_rays(const wo_lens_model *model, double h, const double *nm, int lines,
+                        const double (*u)[2], int count, wo_model_ray *out);
+/* One of them; false: there is no such ray. */
 bool wo_lens_model_ray(const wo_lens_model *model, double h, const double u[2], double nm,
                        wo_model_ray *ray);
+
+/* The largest of the ray's clips; INFINITY for a ray that is not there. Above 1 it is blocked. */
+double wo_model_ray_clip(const wo_lens_model *model, const wo_model_ray *ray);
 
 /* The refocus that makes the spot on the axis smallest (RMS) in the reference wavelength. */
 double wo_lens_model_best_focus(const wo_lens_model *model);

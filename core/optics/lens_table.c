@@ -2,240 +2,14 @@
 /* Copyright the WideOpen authors */
 #include "optics/lens_table.h"
 
+#include "optics/lens_fit.h"
+
 #include <math.h>
 #include <string.h>
 
 #define PI 3.14159265358979323846
 
-/* A little more than the pupil is fitted, so that its edge is not the fit's edge. */
-#define BEYOND_CLIP 1.2
-
-enum {
-    SAMPLES = 320,     /* rays of one fit, in half the iris */
-    VALIDATIONS = 400, /* random rays for the error */
-    CLIP_SAMPLES_MIN = 40
-};
-
-/* Number of terms s^i t^j, i + j <= degree, j = 0, 2, 4.. */
-static int even_terms(int degree)
-{
-    int n = 0;
-    for (int j = 0; j <= degree; j += 2)
-        n += degree - j + 1;
-    return n;
-}
-
-static int terms_at(int degree, double s, double t2, double *row)
-{
-    int n = 0;
-    double power = 1;
-    for (int j = 0; j <= degree; j += 2) {
-        double p = power;
-        for (int i = 0; i <= degree - j; i++) {
-            row[n++] = p;
-            p *= s;
-        }
-        power *= t2;
-    }
-    return n;
-}
-
-/* Least squares by Householder reflections: a is [rows][columns] and b [rows][sides], both lost; x
-   is [columns][sides]. Columns that depend on others get 0. */
-static void solve(double *a, int rows, int columns, double *b, int sides, double *x)
-{
-    for (int k = 0; k < columns; k++) {
-        double norm2 = 0;
-        for (int i = k; i < rows; i++)
-            norm2 += a[i * columns + k] * a[i * columns + k];
-        const double norm = sqrt(norm2);
-        if (norm < 1e-11) {
-            a[k * columns + k] = 0;
-            continue;
-        }
-        const double alpha = a[k * columns + k] > 0 ? -norm : norm;
-        const double head = a[k * columns + k] - alpha;
-        const double beta = -1 / (alpha * head); /* 2 / |w|^2, w = (head, rest) */
-        for (int j = k + 1; j < columns; j++) {
-            double dot = head * a[k * columns + j];
-            for (int i = k + 1; i < rows; i++)
-                dot += a[i * columns + k] * a[i * columns + j];
-            dot *= beta;
-            a[k * columns + j] -= dot * head;
-            for (int i = k + 1; i < rows; i++)
-                a[i * columns + j] -= dot * a[i * columns + k];
-        }
-        for (int j = 0; j < sides; j++) {
-            double dot = head * b[k * sides + j];
-            for (int i = k + 1; i < rows; i++)
-                dot += a[i * columns + k] * b[i * sides + j];
-            dot *= beta;
-            b[k * sides + j] -= dot * head;
-            for (int i = k + 1; i < rows; i++)
-                b[i * sides + j] -= dot * a[i * columns + k];
-        }
-        a[k * columns + k] = alpha;
-    }
-    for (int j = 0; j < sides; j++) {
-        for (int k = columns - 1; k >= 0; k--) {
-            double sum = b[k * sides + j];
-            for (int i = k + 1; i < columns; i++)
-                sum -= a[k * columns + i] * x[i * sides + j];
-            x[k * sides + j] = a[k * columns + k] != 0 ? sum / a[k * columns + k] : 0;
-        }
-    }
-}
-
-/* Rays of one node. */
-typedef struct sample_set {
-    int count;
-    double s[SAMPLES], t[SAMPLES];
-    wo_model_ray ray[SAMPLES];
-} sample_set;
-
-typedef struct work {
-    double a[SAMPLES * WO_TABLE_EVEN_MAX];
-    double b[SAMPLES * WO_MODEL_CLIPS];
-    double x[WO_TABLE_EVEN_MAX * WO_MODEL_CLIPS];
-} work;
-
-typedef struct fit_job {
-    const wo_lens_model *model;
-    wo_lens_table *table;
-    sample_set *samples; /* [lines][nodes] */
-    work *works;         /* [workers] */
-} fit_job;
-
-static double clip_most(const wo_lens_model *model, const wo_model_ray *ray)
-{
-    double most = 0;
-    for (int k = 0; k < model->clips; k++)
-        most = fmax(most, ray->clip[k]);
-    return most;
-}
-
-/* Points of the upper half of the iris, every eighth on its edge. */
-static void sample_node(void *user, size_t index, unsigned worker)
-{
-    (void)worker;
-    const fit_job *job = user;
-    const wo_lens_table *table = job->table;
-    sample_set *set = &job->samples[index];
-    const int line = (int)index / table->nodes;
-    const double h = table->field_max * (double)((int)index % table->nodes) / (table->nodes - 1);
-    set->count = 0;
-    for (int i = 0; i < SAMPLES; i++) {
-        const double r = i % 8 == 0 ? 1 : sqrt((i + 0.5) / SAMPLES);
-        const double angle = PI * fmod(i * 0.6180339887498949, 1);
-        const double u[2] = {r * cos(angle), r * sin(angle)};
-        wo_model_ray ray = {.weight = 0};
-        if (!wo_lens_model_ray(job->model, h, u, table->nm[line], &ray))
-            continue;
-        set->s[set->count] = u[0];
-        set->t[set->count] = u[1];
-        set->ray[set->count++] = ray;
-    }
-}
-
-/* How far out field points get light in every wavelength. */
-static wo_status find_light(const fit_job *job, wo_error *error)
-{
-    wo_lens_table *table = job->table;
-    table->lit = 0;
-    for (bool lit = true; lit && table->lit < table->nodes; table->lit += lit) {
-        for (int line = 0; line < table->lines; line++) {
-            const sample_set *set = &job->samples[line * table->nodes + table->lit];
-            int through = 0;
-            for (int i = 0; i < set->count; i++)
-                through += clip_most(job->model, &set->ray[i]) < BEYOND_CLIP;
-            lit &= through >= CLIP_SAMPLES_MIN;
-        }
-    }
-    if (table->lit < 4)
-        return wo_fail(error, WO_ERR_UNSUPPORTED,
-                       "the lens lights only %d of %d field points: its image circle is too small",
-                       table->lit, table->nodes);
-    table->field_lit = table->field_max * (table->lit - 1) / (table->nodes - 1);
-    return WO_OK;
-}
-
-/* Copies coefficients of a lower degree into rows of the table's. */
-static void spread(const double *x, int sides, int side, int degree, int to_degree, float *out)
-{
-    int from = 0;
-    int to = 0;
-    for (int j = 0; j <= to_degree; j += 2) {
-        for (int i = 0; i <= to_degree - j; i++)
-            out[to + i] = i <= degree - j ? (float)x[(from + i) * sides + side] : 0.0f;
-        from += degree - j + 1 > 0 ? degree - j + 1 : 0;
-        to += to_degree - j + 1;
-    }
-}
-
-static void fit_clips(const fit_job *job, const sample_set *set, work *w, wo_table_node *node)
-{
-    const int clips = job->model->clips;
-    int degree = WO_TABLE_CLIP_DEGREE;
-    while (degree > 2 && 3 * even_terms(degree) > 2 * set->count)
-        degree -= 2;
-    const int columns = even_terms(degree);
-    for (int i = 0; i < set->count; i++) {
-        terms_at(degree, set->s[i], set->t[i] * set->t[i], w->a + i * columns);
-        for (int k = 0; k < clips; k++)
-            w->b[i * clips + k] = set->ray[i].clip[k];
-    }
-    solve(w->a, set->count, columns, w->b, clips, w->x);
-    for (int k = 0; k < clips; k++)
-        spread(w->x, clips, k, degree, WO_TABLE_CLIP_DEGREE, node->clip[k]);
-}
-
-static void fit_node(void *user, size_t index, unsigned worker)
-{
-    const fit_job *job = user;
-    const sample_set *set = &job->samples[index];
-    work *w = &job->works[worker];
-    wo_table_node *node = &job->table->node[index];
-    memset(node, 0, sizeof *node);
-    if (set->count >= CLIP_SAMPLES_MIN && job->model->clips > 0)
-        fit_clips(job, set, w, node);
-    int used[SAMPLES];
-    int rows = 0;
-    for (int i = 0; i < set->count; i++)
-        if (clip_most(job->model, &set->ray[i]) < BEYOND_CLIP)
-            used[rows++] = i;
-    if (rows < CLIP_SAMPLES_MIN)
-        return;
-    int degree = job->table->degree;
-    while (degree > 1 && 4 * even_terms(degree) > 3 * rows)
-        degree--;
-    int columns = even_terms(degree);
-    for (int r = 0; r < rows; r++) {
-        const int i = used[r];
-        terms_at(degree, set->s[i], set->t[i] * set->t[i], w->a + r * columns);
-        w->b[r * 3] = set->ray[i].a[0];
-        w->b[r * 3 + 1] = set->ray[i].b[0];
-        w->b[r * 3 + 2] = set->ray[i].weight;
-    }
-    solve(w->a, rows, columns, w->b, 3, w->x);
-    float *const even[3] = {node->ax, node->bx, node->weight};
-    for (int k = 0; k < 3; k++)
-        spread(w->x, 3, k, degree, job->table->degree, even[k]);
-    /* Odd ones: t times a polynomial of one degree less, each row times t. */
-    columns = even_terms(degree - 1);
-    for (int r = 0; r < rows; r++) {
-        const int i = used[r];
-        const double t = set->t[i];
-        terms_at(degree - 1, set->s[i], t * t, w->a + r * columns);
-        for (int c = 0; c < columns; c++)
-            w->a[r * columns + c] *= t;
-        w->b[r * 2] = set->ray[i].a[1];
-        w->b[r * 2 + 1] = set->ray[i].b[1];
-    }
-    solve(w->a, rows, columns, w->b, 2, w->x);
-    float *const odd[2] = {node->ay, node->by};
-    for (int k = 0; k < 2; k++)
-        spread(w->x, 2, k, degree - 1, job->table->degree - 1, odd[k]);
-}
+enum { VALIDATIONS = 400, NODES_FIRST = 9, DEGREE_FIRST = 5, LIT_POINTS = 256 };
 
 /* Adds weight times a node to another, seen from the other side of the axis when mirror is -1. */
 static void add_rows(const float *from, int degree, int parity, double weight, bool mirror,
@@ -252,10 +26,10 @@ static void add_rows(const float *from, int degree, int parity, double weight, b
 void wo_lens_table_node(const wo_lens_table *table, int line, double h, wo_table_node *out)
 {
     memset(out, 0, sizeof *out);
-    const double at = fmin(fmax(h, 0) / table->field_max * (table->nodes - 1), table->lit - 1);
+    const double at = fmin(fmax(h, 0) / table->field, 1) * (table->nodes - 1);
     int first = (int)at - 1;
-    if (first > table->lit - 4)
-        first = table->lit - 4;
+    if (first > table->nodes - 4)
+        first = table->nodes - 4;
     for (int k = 0; k < 4; k++) {
         double weight = 1;
         for (int m = 0; m < 4; m++)
@@ -272,7 +46,27 @@ void wo_lens_table_node(const wo_lens_table *table, int line, double h, wo_table
         add_rows(from->by, d - 1, 0, weight, mirror, out->by);
         for (int c = 0; c < table->clips; c++)
             add_rows(from->clip[c], WO_TABLE_CLIP_DEGREE, 0, weight, mirror, out->clip[c]);
+        if (table->edge)
+            add_rows(from->edge, WO_TABLE_EDGE_DEGREE, 0, weight, mirror, out->edge);
     }
+}
+
+/* One ray of the table, as a model gives it; false when it does not count. */
+static bool table_ray(const wo_lens_table *table, const wo_lens_request *request, int line,
+                      double h, const double u[2], wo_model_ray *ray)
+{
+    wo_table_node node;
+    const float s[16] = {(float)u[0]};
+    const float t[16] = {(float)u[1]};
+    float out[5][16];
+    const wo_table_rays rays = {out[0], out[1], out[2], out[3], out[4], NULL};
+    wo_lens_table_node(table, line, h, &node);
+    wo_table_eval_base(table, &node, s, t, 1, &rays);
+    *ray = (wo_model_ray){.a = {(double)out[0][0], (double)out[1][0]},
+                          .b = {(double)out[2][0], (double)out[3][0]},
+                          .weight = (double)out[4][0]};
+    static const wo_lens_model open = {.clips = 0};
+    return h <= table->field && wo_lens_ray_counts(&open, request, ray);
 }
 
 static double unit(uint32_t *state)
@@ -281,18 +75,22 @@ static double unit(uint32_t *state)
     return (double)(*state >> 8) * 0x1p-24;
 }
 
-/* One random ray of the field, the wavelengths and the iris that gets through. */
+/* One random ray of the field, the wavelengths and the iris. */
 typedef struct trial {
-    bool valid;
+    bool counts;
     int line;
-    double h, s, t;
+    double h, u[2];
     wo_model_ray ray;
 } trial;
 
 typedef struct trial_job {
     const wo_lens_model *model;
+    const wo_lens_request *request;
     const wo_lens_table *table;
+    double field;
     trial *trials;
+    double *error_px;  /* [VALIDATIONS]; NAN: a ray that neither lets through */
+    double *lit_error; /* [WO_LIT_FIELDS] */
 } trial_job;
 
 static void make_trial(void *user, size_t index, unsigned worker)
@@ -303,103 +101,186 @@ static void make_trial(void *user, size_t index, unsigned worker)
     uint32_t state = 0x9e3779b9u * (uint32_t)(index + 1);
     for (int k = 0; k < 4; k++)
         unit(&state);
-    t->line = (int)(unit(&state) * job->table->lines);
-    t->h = job->table->field_max * sqrt(unit(&state));
+    t->line = (int)(unit(&state) * job->request->lines);
+    t->h = job->field * sqrt(unit(&state));
     const double r = sqrt(unit(&state));
     const double angle = 2 * PI * unit(&state);
-    const double u[2] = {r * cos(angle), r * sin(angle)};
-    t->s = u[0];
-    t->t = u[1];
-    t->ray = (wo_model_ray){.weight = 0};
-    t->valid = wo_lens_model_ray(job->model, t->h, u, job->table->nm[t->line], &t->ray) &&
-               clip_most(job->model, &t->ray) <= 1;
+    t->u[0] = r * cos(angle);
+    t->u[1] = r * sin(angle);
+    t->counts = wo_lens_model_ray(job->model, t->h, t->u, job->request->nm[t->line], &t->ray) &&
+                wo_lens_ray_counts(job->model, job->request, &t->ray);
 }
 
-static void measure(wo_lens_table *table, const trial *trials, double focal_px,
-                    double blur_dioptres)
+/* How far in the iris it is from a trial to where the model's answer changes: the table's edge is
+   off by so much. The nearest of some directions. */
+static double off_edge(const trial_job *job, const trial *t)
 {
+    enum { DIRECTIONS = 8, STEPS = 12 };
+    double u[DIRECTIONS][2];
+    wo_model_ray ray[DIRECTIONS];
+    double far = 1.0 / 512;
+    for (int k = 0; k < STEPS; k++, far *= 2) {
+        for (int i = 0; i < DIRECTIONS; i++) {
+            u[i][0] = t->u[0] + far * cos(2 * PI * i / DIRECTIONS);
+            u[i][1] = t->u[1] + far * sin(2 * PI * i / DIRECTIONS);
+        }
+        wo_lens_model_rays(job->model, t->h, &job->request->nm[t->line], 1, (const double(*)[2])u,
+                           DIRECTIONS, ray);
+        for (int i = 0; i < DIRECTIONS; i++)
+            if (wo_lens_ray_counts(job->model, job->request, &ray[i]) != t->counts ||
+                hypot(u[i][0], u[i][1]) > 1)
+                return far;
+    }
+    return far;
+}
+
+static void measure_trial(void *user, size_t index, unsigned worker)
+{
+    (void)worker;
+    const trial_job *job = user;
+    const wo_lens_request *r = job->request;
+    const trial *t = &job->trials[index];
+    wo_model_ray own;
+    const bool counts = table_ray(job->table, r, t->line, t->h, t->u, &own);
+    double *const error = &job->error_px[index];
+    *error = NAN;
+    if (counts != t->counts) {
+        const double *const b = counts ? own.b : t->ray.b;
+        const double radius = fmax(hypot(t->u[0], t->u[1]), 0.25);
+        *error = r->focal_px * r->blur_dioptres * hypot(b[0], b[1]) / radius * off_edge(job, t);
+        return;
+    }
+    for (int side = 0; counts && side < 2; side++) {
+        const double dv = side * r->blur_dioptres;
+        const double ex = own.a[0] - t->ray.a[0] + dv * (own.b[0] - t->ray.b[0]);
+        const double ey = own.a[1] - t->ray.a[1] + dv * (own.b[1] - t->ray.b[1]);
+        *error = fmax(side ? *error : 0, r->focal_px * hypot(ex, ey));
+    }
+}
+
+static void measure(const wo_context *context, const trial_job *job, wo_lens_table *table)
+{
+    wo_run(context, measure_trial, (void *)job, VALIDATIONS);
     double sum = 0;
     int count = 0;
     table->worst_px = 0;
     for (int i = 0; i < VALIDATIONS; i++) {
-        const trial *t = &trials[i];
-        wo_table_node node;
-        if (!t->valid || t->h > table->field_lit)
+        const double e = job->error_px[i];
+        if (!(e >= 0))
             continue;
-        wo_lens_table_node(table, t->line, t->h, &node);
-        float s[16] = {(float)t->s};
-        float y[16] = {(float)t->t};
-        float out[5][16];
-        const wo_table_rays rays = {out[0], out[1], out[2], out[3], out[4], NULL};
-        wo_table_eval_base(table, &node, s, y, 1, &rays);
-        double worst = 0;
-        for (int side = 0; side < 2; side++) {
-            const double dv = side * blur_dioptres;
-            const double ex =
-                (double)out[0][0] - t->ray.a[0] + dv * ((double)out[2][0] - t->ray.b[0]);
-            const double ey =
-                (double)out[1][0] - t->ray.a[1] + dv * ((double)out[3][0] - t->ray.b[1]);
-            worst = fmax(worst, focal_px * hypot(ex, ey));
-        }
-        sum += worst * worst;
-        table->worst_px = fmax(table->worst_px, worst);
+        sum += e * e;
+        table->worst_px = fmax(table->worst_px, e);
         count++;
     }
     table->rms_px = count > 0 ? sqrt(sum / count) : INFINITY;
 }
 
-static wo_status fit(const wo_context *context, const wo_lens_model *model, wo_lens_table *table,
-                     const trial *trials, double focal_px, double blur_dioptres, double target_px,
-                     wo_error *error)
+/* Lit parts of the iris at fields of the whole picture, by the table and by the model. */
+static void measure_lit(void *user, size_t index, unsigned worker)
 {
-    const size_t nodes = (size_t)table->lines * (size_t)table->nodes;
-    fit_job job = {.model = model, .table = table};
-    wo_status status = WO_ERR_NOMEM;
-    job.samples = wo_new(context, error, nodes, sizeof *job.samples);
-    job.works = wo_new(context, error, wo_workers(context), sizeof *job.works);
-    wo_delete(context, table->node);
-    table->node = wo_new(context, error, nodes, sizeof *table->node);
-    if (job.samples && job.works && table->node) {
-        wo_run(context, sample_node, &job, nodes);
-        status = find_light(&job, error);
-        for (int d = 5; status == WO_OK && d <= WO_TABLE_DEGREE_MAX && !wo_aborted(context);
-             d += 2) {
-            table->degree = d;
-            wo_run(context, fit_node, &job, nodes);
-            measure(table, trials, focal_px, blur_dioptres);
-            if (table->rms_px <= target_px)
-                break;
-        }
+    (void)worker;
+    const trial_job *job = user;
+    const wo_lens_request *r = job->request;
+    const int line = r->lines / 2;
+    const double h = job->model->field_max * (double)index / (WO_LIT_FIELDS - 1);
+    double u[LIT_POINTS][2];
+    wo_model_ray ray[LIT_POINTS];
+    for (int i = 0; i < LIT_POINTS; i++) {
+        const double radius = sqrt((i + 0.5) / LIT_POINTS);
+        u[i][0] = radius * cos(2.399963229728653 * i + 1);
+        u[i][1] = radius * sin(2.399963229728653 * i + 1);
     }
-    wo_delete(context, job.samples);
-    wo_delete(context, job.works);
-    return wo_aborted(context) ? WO_ABORTED : status;
+    wo_lens_model_rays(job->model, h, &r->nm[line], 1, (const double(*)[2])u, LIT_POINTS, ray);
+    int more = 0;
+    for (int i = 0; i < LIT_POINTS; i++) {
+        wo_model_ray own;
+        more += table_ray(job->table, r, line, h, u[i], &own);
+        more -= wo_lens_ray_counts(job->model, r, &ray[i]);
+    }
+    job->lit_error[index] = fabs((double)more) / LIT_POINTS;
+}
+
+/* The lowest degree that will do with so many field points, or the highest. */
+static void choose_degree(const wo_context *context, const wo_lens_fit *fit, const trial_job *job,
+                          double target_px, wo_lens_table *table)
+{
+    int degree = DEGREE_FIRST;
+    while (degree < WO_TABLE_DEGREE_MAX && wo_lens_fit_residual(fit, degree) > target_px)
+        degree += 2;
+    for (; degree <= WO_TABLE_DEGREE_MAX && !wo_aborted(context); degree += 2) {
+        table->degree = degree;
+        wo_lens_fit_solve(context, fit, degree, table->node);
+        measure(context, job, table);
+        if (table->rms_px <= target_px)
+            return;
+    }
+}
+
+static wo_status fit_table(const wo_context *context, const wo_lens_lit *lit, double target_px,
+                           trial_job *job, wo_lens_table *table, wo_error *error)
+{
+    wo_lens_fit *fit;
+    WO_TRY(wo_lens_fit_create(context, job->model, job->request, &fit, error));
+    wo_status status = WO_OK;
+    table->field = wo_lens_fit_field(fit, lit->field);
+    if (!(table->field > 0))
+        status =
+            wo_fail(error, WO_ERR_UNSUPPORTED, "the lens lets too few rays through for a table");
+    for (table->nodes = NODES_FIRST; status == WO_OK; table->nodes = 2 * table->nodes - 1) {
+        status = wo_lens_fit_nodes(context, fit, table->field, table->nodes, error);
+        if (status != WO_OK)
+            break;
+        table->edge = wo_lens_fit_edge(fit);
+        wo_delete(context, table->node);
+        table->node = wo_new(context, error, (size_t)table->lines * (size_t)table->nodes,
+                             sizeof *table->node);
+        if (!table->node) {
+            status = WO_ERR_NOMEM;
+            break;
+        }
+        choose_degree(context, fit, job, target_px, table);
+        if (wo_aborted(context))
+            status = WO_ABORTED;
+        else if (table->rms_px <= target_px || table->nodes >= WO_FIT_NODES_MAX)
+            break;
+    }
+    wo_lens_fit_destroy(context, &fit);
+    return status;
 }
 
 wo_status wo_lens_table_create(const wo_context *context, const wo_lens_model *model,
-                               const double *nm, int lines, double focal_px, double blur_dioptres,
+                               const wo_lens_request *request, const wo_lens_lit *lit,
                                double target_px, wo_lens_table **table, wo_error *error)
 {
     *table = NULL;
-    if (lines < 1 || lines > WO_LINES_MAX)
-        return wo_fail(error, WO_ERR_RANGE, "%d wavelengths: must be 1..%d", lines, WO_LINES_MAX);
+    if (request->lines < 1 || request->lines > WO_LINES_MAX)
+        return wo_fail(error, WO_ERR_RANGE, "%d wavelengths: must be 1..%d", request->lines,
+                       WO_LINES_MAX);
     wo_lens_table *t = wo_new(context, error, 1, sizeof *t);
     trial *trials = wo_new(context, error, VALIDATIONS, sizeof *trials);
-    wo_status status = t && trials ? WO_OK : WO_ERR_NOMEM;
+    double *errors = wo_new(context, error, VALIDATIONS, sizeof *errors);
+    double lit_error[WO_LIT_FIELDS];
+    wo_status status = t && trials && errors ? WO_OK : WO_ERR_NOMEM;
     if (status == WO_OK) {
-        t->lines = lines;
+        t->lines = request->lines;
         t->clips = model->clips;
-        t->field_max = model->field_max;
-        memcpy(t->nm, nm, (size_t)lines * sizeof *nm);
-        trial_job job = {model, t, trials};
+        memcpy(t->nm, request->nm, (size_t)request->lines * sizeof *request->nm);
+        trial_job job = {.model = model,
+                         .request = request,
+                         .table = t,
+                         .field = lit->field,
+                         .trials = trials,
+                         .error_px = errors,
+                         .lit_error = lit_error};
         wo_run(context, make_trial, &job, VALIDATIONS);
-        for (t->nodes = 9; status == WO_OK; t->nodes = 2 * t->nodes - 1) {
-            status = fit(context, model, t, trials, focal_px, blur_dioptres, target_px, error);
-            if (t->rms_px <= target_px || t->nodes >= 33)
-                break;
-        }
+        status = fit_table(context, lit, target_px, &job, t, error);
+        if (status == WO_OK)
+            wo_run(context, measure_lit, &job, WO_LIT_FIELDS);
+        for (int i = 0; status == WO_OK && i < WO_LIT_FIELDS; i++)
+            t->lit_error = fmax(t->lit_error, lit_error[i]);
     }
     wo_delete(context, trials);
+    wo_delete(context, errors);
     if (status != WO_OK)
         wo_lens_table_destroy(context, &t);
     *table = t;

@@ -8,9 +8,14 @@
 #include <string.h>
 
 struct wo_table_pencils {
-    wo_lens_table *table;
-    bool borrowed; /* the table */
+    wo_lens_table *table;       /* NULL = rays are traced one by one */
+    const wo_lens_model *model; /* borrowed */
+    bool borrowed;              /* the table */
     wo_table_function *eval;
+    int lines;
+    wo_lens_lit lit;
+    double field_lit; /* tangent, the edge of the image circle: what is farther out is as there */
+    double field;     /* the same of pencils, whose rays are few */
     wo_table_pencil_options options;
     wo_bands bands;
     bool uniform; /* all weights are 1 */
@@ -26,6 +31,12 @@ struct wo_table_pencils {
     wo_iris_grid grids[WO_IRIS_GRIDS]; /* borrowed like the table */
 };
 
+/* Of how many rays of a pencil that get through it takes a field point to have pencils of its own:
+   where the lit part of the iris is so small that fewer of them would, pencils are those nearer to
+   the axis. */
+enum { RAYS_LIT = 6 };
+#define PART_MOST 0.5 /* but they are not taken from where more of the iris is lit */
+
 /* Where a point (x, y) px is: tangent and direction from the axis. */
 typedef struct field_point {
     double h, c, s;
@@ -39,48 +50,103 @@ static field_point field_at(const wo_table_pencils *p, double x, double y)
     return (field_point){h, h > 0 ? dx / h : 1, h > 0 ? dy / h : 0};
 }
 
-/* Rays of one wavelength. */
-static void make_rays(const wo_table_pencils *p, int line, field_point at, const float *x,
-                      const float *y, const float *light, int count, int to, wo_pencil_room *room)
+/* Rays of the model itself, as wo_table_function gives those of a table. */
+static void trace_rays(const wo_table_pencils *p, int line, double h, const float *s,
+                       const float *t, int count, const wo_table_rays *out)
+{
+    static const float blocked = 4;
+    double u[WO_PENCIL_PIECE][2];
+    wo_model_ray ray[WO_PENCIL_PIECE];
+    for (int i = 0; i < count; i++) {
+        u[i][0] = (double)s[i];
+        u[i][1] = (double)t[i];
+    }
+    wo_lens_model_rays(p->model, h, &p->bands.nm[line], 1, (const double(*)[2])u, count, ray);
+    for (int i = 0; i < count; i++) {
+        const double clip = wo_model_ray_clip(p->model, &ray[i]);
+        out->ax[i] = (float)ray[i].a[0];
+        out->ay[i] = (float)ray[i].a[1];
+        out->bx[i] = (float)ray[i].b[0];
+        out->by[i] = (float)ray[i].b[1];
+        out->weight[i] = out->clip || clip <= 1 ? (float)ray[i].weight : 0;
+        if (out->clip)
+            out->clip[i] = fminf((float)clip, blocked);
+    }
+}
+
+/* count <= WO_PENCIL_PIECE rays of a wavelength through places (s, t) of the iris, with the field
+   point in the direction +x: tangents and metres. */
+static void upright_rays(const wo_table_pencils *p, int line, double h, const float *s,
+                         const float *t, int count, const wo_table_rays *out)
+{
+    if (!p->table) {
+        trace_rays(p, line, h, s, t, count, out);
+        return;
+    }
+    wo_table_node node;
+    wo_lens_table_node(p->table, line, h, &node);
+    p->eval(p->table, &node, s, t, count, out);
+}
+
+/* How far a ray goes, in parts of what is allowed: above 1 it must not be. */
+static float far_of(const wo_table_pencils *p, float ax, float ay, float bx, float by)
+{
+    const float a = sqrtf(ax * ax + ay * ay);
+    const float b = sqrtf(bx * bx + by * by);
+    const float all = (a + (float)p->options.v_limit * b) / (float)p->options.max_reach;
+    return fmaxf(all, fmaxf(a / (float)p->reach_a, b / (float)p->reach_b));
+}
+
+/* The same for the field point at: px, and clipped where they go too far. */
+static void turned_rays(const wo_table_pencils *p, int line, field_point at, const float *s,
+                        const float *t, int count, const wo_table_rays *out)
 {
     float along[WO_PENCIL_PIECE + WO_LANES];
     float across[WO_PENCIL_PIECE + WO_LANES];
-    wo_table_node node;
-    wo_lens_table_node(p->table, line, at.h, &node);
     const float cf = (float)at.c;
     const float sf = (float)at.s;
     for (int i = 0; i < count; i++) {
-        along[i] = cf * x[i] + sf * y[i];
-        across[i] = cf * y[i] - sf * x[i];
+        along[i] = cf * s[i] + sf * t[i];
+        across[i] = cf * t[i] - sf * s[i];
     }
     memset(along + count, 0, WO_LANES * sizeof *along);
     memset(across + count, 0, WO_LANES * sizeof *across);
-    float *const ax = room->ax + to;
-    float *const ay = room->ay + to;
-    float *const bx = room->bx + to;
-    float *const by = room->by + to;
-    float *const weight = room->weight[0] + to;
-    const wo_table_rays out = {ax, ay, bx, by, weight, NULL};
-    p->eval(p->table, &node, along, across, count, &out);
+    upright_rays(p, line, at.h, along, across, count, out);
     const float fx = (float)p->options.focal_px;
     const float fy = (float)(p->options.focal_px * p->options.stretch);
-    const float reach = (float)p->options.max_reach;
-    const float v_limit = (float)p->options.v_limit;
+    for (int i = 0; i < count; i++) {
+        const float a1 = (cf * out->ax[i] - sf * out->ay[i]) * fx;
+        const float a2 = (sf * out->ax[i] + cf * out->ay[i]) * fy;
+        const float b1 = (cf * out->bx[i] - sf * out->by[i]) * fx;
+        const float b2 = (sf * out->bx[i] + cf * out->by[i]) * fy;
+        const float far = far_of(p, a1, a2, b1, b2);
+        const bool near = far <= 1;
+        if (out->clip)
+            out->clip[i] = fmaxf(out->clip[i], far);
+        else
+            out->weight[i] = near ? out->weight[i] : 0;
+        const bool keep = near || out->clip;
+        out->ax[i] = keep ? a1 : 0;
+        out->ay[i] = keep ? a2 : 0;
+        out->bx[i] = keep ? b1 : 0;
+        out->by[i] = keep ? b2 : 0;
+    }
+}
+
+/* Rays of one wavelength for a pencil. */
+static void make_rays(const wo_table_pencils *p, int line, field_point at, const float *x,
+                      const float *y, const float *light, int count, int to, wo_pencil_room *room)
+{
+    const wo_table_rays out = {room->ax + to, room->ay + to,        room->bx + to,
+                               room->by + to, room->weight[0] + to, NULL};
+    at.h = fmin(at.h, p->field);
+    turned_rays(p, line, at, x, y, count, &out);
     const float r = (float)p->bands.weight[line][0];
     const float g = (float)p->bands.weight[line][1];
     const float b = (float)p->bands.weight[line][2];
     for (int i = 0; i < count; i++) {
-        const float a1 = (cf * ax[i] - sf * ay[i]) * fx;
-        const float a2 = (sf * ax[i] + cf * ay[i]) * fy;
-        const float b1 = (cf * bx[i] - sf * by[i]) * fx;
-        const float b2 = (sf * bx[i] + cf * by[i]) * fy;
-        const bool near = sqrtf(a1 * a1 + a2 * a2) + v_limit * sqrtf(b1 * b1 + b2 * b2) <= reach;
-        ax[i] = near ? a1 : 0;
-        ay[i] = near ? a2 : 0;
-        bx[i] = near ? b1 : 0;
-        by[i] = near ? b2 : 0;
-        const float w = near ? weight[i] * light[i] : 0;
-        weight[i] = w * r;
+        const float w = out.weight[i] * light[i];
+        out.weight[i] = w * r;
         room->weight[1][to + i] = w * g;
         room->weight[2][to + i] = w * b;
     }
@@ -107,11 +173,11 @@ static void table_pencil(const void *self, double x, double y, unsigned set, int
     const float *points = p->points + 3 * p->stride * set;
     const int left = p->options.count - first;
     const int count = left < WO_PENCIL_PIECE ? left : WO_PENCIL_PIECE;
-    for (int run = 0; run < 2 * p->table->lines; run++) {
+    for (int run = 0; run < 2 * p->lines; run++) {
         const int from = p->begin[run] > first ? p->begin[run] : first;
         const int to = p->begin[run + 1] < first + count ? p->begin[run + 1] : first + count;
         if (from < to)
-            make_rays(p, run % p->table->lines, at, points + from, points + p->stride + from,
+            make_rays(p, run % p->lines, at, points + from, points + p->stride + from,
                       points + 2 * p->stride + from, to - from, from - first, room);
     }
     if (p->has_doors)
@@ -130,48 +196,17 @@ static float door_clip(const wo_barn_doors *doors, double fx, double fy, double 
     return (float)fmax(across, along);
 }
 
-static void iris_piece(const wo_table_pencils *p, const wo_table_node *node, field_point at,
-                       const float *s, const float *t, int count, const wo_table_rays *out)
-{
-    float along[WO_PENCIL_PIECE + WO_LANES] = {0};
-    float across[WO_PENCIL_PIECE + WO_LANES] = {0};
-    const float cf = (float)at.c;
-    const float sf = (float)at.s;
-    for (int i = 0; i < count; i++) {
-        along[i] = cf * s[i] + sf * t[i];
-        across[i] = cf * t[i] - sf * s[i];
-    }
-    p->eval(p->table, node, along, across, count, out);
-    const float fx = (float)p->options.focal_px;
-    const float fy = (float)(p->options.focal_px * p->options.stretch);
-    const float reach = (float)p->options.max_reach;
-    const float v_limit = (float)p->options.v_limit;
-    for (int i = 0; i < count; i++) {
-        const float a1 = (cf * out->ax[i] - sf * out->ay[i]) * fx;
-        const float a2 = (sf * out->ax[i] + cf * out->ay[i]) * fy;
-        const float b1 = (cf * out->bx[i] - sf * out->by[i]) * fx;
-        const float b2 = (sf * out->bx[i] + cf * out->by[i]) * fy;
-        const float far = sqrtf(a1 * a1 + a2 * a2) + v_limit * sqrtf(b1 * b1 + b2 * b2);
-        out->clip[i] = fmaxf(out->clip[i], far / reach);
-        out->ax[i] = a1;
-        out->ay[i] = a2;
-        out->bx[i] = b1;
-        out->by[i] = b2;
-    }
-}
-
 static void table_iris_rays(const void *self, double x, double y, int line, const float *s,
                             const float *t, int count, const wo_iris_rays *out)
 {
     const wo_table_pencils *p = self;
-    const field_point at = field_at(p, x, y);
-    wo_table_node node;
-    wo_lens_table_node(p->table, line, at.h, &node);
+    field_point at = field_at(p, x, y);
+    at.h = fmin(at.h, p->field_lit);
     for (int i = 0; i < count; i += WO_PENCIL_PIECE) {
         const int n = count - i < WO_PENCIL_PIECE ? count - i : WO_PENCIL_PIECE;
         const wo_table_rays part = {out->ax + i, out->ay + i,     out->bx + i,
                                     out->by + i, out->weight + i, out->clip + i};
-        iris_piece(p, &node, at, s + i, t + i, n, &part);
+        turned_rays(p, line, at, s + i, t + i, n, &part);
     }
     const double fx = (x - p->options.centre_x) / p->options.half_diagonal;
     const double fy = (y - p->options.centre_y) / (p->options.half_diagonal * p->options.stretch);
@@ -190,12 +225,12 @@ static double table_reach(const void *self, double v_far, double v_near)
 static int rays_of(const wo_table_pencils *p, int line)
 {
     const int64_t count = p->options.count;
-    return (int)(count * (line + 1) / p->table->lines - count * line / p->table->lines);
+    return (int)(count * (line + 1) / p->lines - count * line / p->lines);
 }
 
 static void share_rays(wo_table_pencils *p)
 {
-    const int lines = p->table->lines;
+    const int lines = p->lines;
     for (int run = 0; run < 2 * lines; run++) {
         const int n = rays_of(p, run % lines);
         p->begin[run + 1] = p->begin[run] + (run < lines ? n / 2 : n - n / 2);
@@ -206,7 +241,7 @@ static void share_rays(wo_table_pencils *p)
 /* Iris points of all sets: for each wavelength a lattice of its own, moved against the others'. */
 static void make_points(wo_table_pencils *p, const wo_aperture_shape *shape)
 {
-    const int lines = p->table->lines;
+    const int lines = p->lines;
     for (unsigned set = 0; set < p->sets; set++) {
         float *const x = p->points + 3 * p->stride * set;
         float *const y = x + p->stride;
@@ -226,68 +261,144 @@ static void make_points(wo_table_pencils *p, const wo_aperture_shape *shape)
     }
 }
 
-/* Longest a and b of rays that get through, over all nodes; the difference between wavelengths. */
-static void survey(wo_table_pencils *p, wo_table_facts *facts)
+/* Places in the iris to look at: of every four one on its edge. */
+enum { POINTS = 256 };
+static void survey_point(int i, double u[2])
 {
-    enum { POINTS = 64 };
-    float s[POINTS];
-    float t[POINTS];
-    float out[WO_LINES_MAX][5][POINTS];
-    for (int i = 0; i < POINTS; i++) {
-        const double r = i < POINTS / 2 ? 1 : sqrt((i - POINTS / 2 + 0.5) / (POINTS / 2));
-        s[i] = (float)(r * cos(2.399963 * i));
-        t[i] = (float)(r * sin(2.399963 * i));
-    }
-    const wo_lens_table *table = p->table;
-    const double f = p->options.focal_px * fmax(1, p->options.stretch);
-    double a_max = 0;
-    double b_max = 0;
-    double parted = 0;
+    const double r = i % 4 == 0 ? 1 : sqrt((i + 0.5) / POINTS);
+    u[0] = r * cos(2.399963229728653 * i);
+    u[1] = r * sin(2.399963229728653 * i);
+}
+
+/* Of rays of the model, some over the field: how far colours part, how many of them go too far. */
+static void survey_model(const wo_table_pencils *p, const wo_lens_request *request,
+                         wo_table_facts *facts)
+{
+    enum { FIELDS = 5, EVERY = 4 };
+    double u[POINTS / EVERY][2];
+    wo_model_ray ray[WO_LINES_MAX][POINTS / EVERY];
+    const double f = request->focal_px;
     int seen = 0;
     int beyond = 0;
-    p->uniform = table->clips == 0;
-    for (int node = 0; node < table->lit; node++) {
-        for (int line = 0; line < table->lines; line++) {
-            float(*o)[POINTS] = out[line];
-            const wo_table_rays rays = {o[0], o[1], o[2], o[3], o[4], NULL};
-            p->eval(table, &table->node[line * table->nodes + node], s, t, POINTS, &rays);
-            for (int i = 0; i < POINTS; i++) {
-                p->uniform &= fabsf(o[4][i] - 1) < 1e-5f;
-                if (!(o[4][i] > 0))
-                    continue;
-                seen++;
-                beyond += f * (hypot((double)o[0][i], (double)o[1][i]) +
-                               p->options.v_limit * hypot((double)o[2][i], (double)o[3][i])) >
-                          p->options.max_reach;
-                a_max = fmax(a_max, f * hypot((double)o[0][i], (double)o[1][i]));
-                b_max = fmax(b_max, f * hypot((double)o[2][i], (double)o[3][i]));
+    facts->colour_px = 0;
+    for (int i = 0; i < POINTS / EVERY; i++)
+        survey_point(EVERY * i + i % EVERY, u[i]);
+    for (int k = 0; k < FIELDS; k++) {
+        const double h = p->lit.field * k / (FIELDS - 1);
+        for (int line = 0; line < request->lines; line++)
+            wo_lens_model_rays(p->model, h, &request->nm[line], 1, (const double(*)[2])u,
+                               POINTS / EVERY, ray[line]);
+        for (int i = 0; i < POINTS / EVERY; i++) {
+            const bool first = wo_lens_ray_counts(p->model, request, &ray[0][i]);
+            for (int line = 0; line < request->lines; line++) {
+                const wo_model_ray *r = &ray[line][i];
+                const bool counts = wo_lens_ray_counts(p->model, request, r);
+                seen += wo_model_ray_clip(p->model, r) <= 1;
+                beyond += wo_model_ray_clip(p->model, r) <= 1 && !counts;
                 double d[4];
-                for (int k = 0; k < 4; k++)
-                    d[k] = f * (double)(o[k][i] - out[0][k][i]);
-                if (out[0][4][i] > 0)
-                    parted =
-                        fmax(parted, hypot(d[0], d[1]) + p->options.v_limit * hypot(d[2], d[3]));
+                for (int c = 0; c < 2; c++) {
+                    d[c] = f * (r->a[c] - ray[0][i].a[c]);
+                    d[2 + c] = f * (r->b[c] - ray[0][i].b[c]);
+                }
+                if (first && counts)
+                    facts->colour_px =
+                        fmax(facts->colour_px,
+                             hypot(d[0], d[1]) + request->blur_dioptres * hypot(d[2], d[3]));
+            }
+        }
+    }
+    facts->beyond = seen > 0 ? (double)beyond / seen : 0;
+}
+
+/* Longest a and b of rays that get through, over the field; are they all alike in weight? */
+static void survey(wo_table_pencils *p, wo_table_facts *facts)
+{
+    enum { FIELDS = 17 };
+    float s[POINTS];
+    float t[POINTS];
+    float out[5][POINTS];
+    const wo_table_rays rays = {out[0], out[1], out[2], out[3], out[4], NULL};
+    for (int i = 0; i < POINTS; i++) {
+        double u[2];
+        survey_point(i, u);
+        s[i] = (float)u[0];
+        t[i] = (float)u[1];
+    }
+    const wo_table_pencil_options *o = &p->options;
+    const double f = o->focal_px * fmax(1, o->stretch);
+    double a_max = 0;
+    double b_max = 0;
+    p->uniform = p->model->clips == 0 && !(p->table && p->table->edge);
+    for (int k = 0; k < FIELDS; k++) {
+        for (int line = 0; line < p->lines; line++) {
+            upright_rays(p, line, p->field_lit * k / (FIELDS - 1), s, t, POINTS, &rays);
+            for (int i = 0; i < POINTS; i++) {
+                const double a = f * hypot((double)out[0][i], (double)out[1][i]);
+                const double b = f * hypot((double)out[2][i], (double)out[3][i]);
+                p->uniform &= fabsf(out[4][i] - 1) < 1e-5f;
+                if (!(out[4][i] > 0) || a + b * o->v_limit > o->max_reach)
+                    continue;
+                a_max = fmax(a_max, a);
+                b_max = fmax(b_max, b);
             }
         }
     }
     facts->aberration_px = a_max;
-    facts->colour_px = parted;
-    facts->beyond = seen > 0 ? (double)beyond / seen : 0;
-    /* Between nodes and points it may be a little more. */
+    /* Between these it may be a little more; what goes farther is cut. */
     p->reach_a = 1.05 * a_max + 0.01;
-    p->reach_b = 1.05 * b_max;
+    p->reach_b = 1.05 * b_max + 1e-6;
 }
 
-static wo_status make_table(const wo_context *context, const wo_lens_model *model,
-                            const wo_table_pencil_options *o, int wavelengths, wo_table_pencils *p,
-                            wo_table_facts *facts, wo_error *error)
+static bool good_enough(const wo_table_facts *facts)
 {
+    return facts->rms_px <= WO_TABLE_MOST_PX && facts->lit_error <= WO_TABLE_MOST_LIT;
+}
+
+static wo_status make_table(const wo_context *context, const wo_lens_request *request,
+                            wo_table_pencils *p, wo_table_facts *facts, wo_error *error)
+{
+    const wo_status status =
+        wo_lens_table_create(context, p->model, request, &p->lit, WO_TABLE_PX, &p->table, error);
+    if (status == WO_ERR_UNSUPPORTED) {
+        facts->rms_px = INFINITY;
+        return WO_OK;
+    }
+    if (status != WO_OK)
+        return status;
+    facts->degree = p->table->degree;
+    facts->nodes = p->table->nodes;
+    facts->rms_px = p->table->rms_px;
+    facts->lit_error = p->table->lit_error;
+    if (good_enough(facts))
+        p->field_lit = p->table->field;
+    else
+        wo_lens_table_destroy(context, &p->table);
+    return WO_OK;
+}
+
+/* Finds out about the lens, and how its rays are best made. */
+static wo_status know_lens(const wo_context *context, int wavelengths, wo_table_pencils *p,
+                           wo_table_facts *facts, wo_error *error)
+{
+    const wo_table_pencil_options *o = &p->options;
     wo_bands_make(wavelengths, &p->bands);
-    if (wavelengths == 1)
-        p->bands.nm[0] = model->reference_nm;
-    wo_lens_table_destroy(context, &p->table);
-    WO_TRY(wo_lens_table_create(context, model, p->bands.nm, p->bands.count, o->focal_px,
-                                o->v_limit, WO_TABLE_PX, &p->table, error));
+    wo_lens_request request = {.nm = p->bands.nm,
+                               .lines = p->bands.count,
+                               .focal_px = o->focal_px * fmax(1, o->stretch),
+                               .blur_dioptres = o->v_limit,
+                               .max_px = o->max_reach};
+    WO_TRY(wo_lens_lit_measure(context, p->model, &request, &p->lit, error));
+    p->field_lit = p->lit.field;
+    survey_model(p, &request, facts);
+    if (wavelengths == 1 || facts->colour_px <= WO_COLOUR_PX) {
+        wo_bands_make(1, &p->bands);
+        p->bands.nm[0] = p->model->reference_nm;
+        request.lines = 1;
+    }
+    p->lines = p->bands.count;
+    if (!o->exact)
+        WO_TRY(make_table(context, &request, p, facts, error));
+    facts->exact = p->table == NULL;
     survey(p, facts);
     return WO_OK;
 }
@@ -296,6 +407,9 @@ static wo_status make_table(const wo_context *context, const wo_lens_model *mode
 static wo_status make_room(const wo_context *context, wo_table_pencils *p, wo_error *error)
 {
     share_rays(p);
+    p->field =
+        fmin(wo_lens_lit_field(&p->lit, fmin((double)RAYS_LIT / p->options.count, PART_MOST)),
+             p->field_lit);
     p->sets = wo_lattice_sets(p->options.count);
     p->stride = (size_t)p->options.count + WO_LANES;
     p->points = wo_new(context, error, 3 * p->stride * p->sets, sizeof *p->points);
@@ -344,15 +458,12 @@ wo_status wo_table_pencils_create(const wo_context *context, const wo_lens_model
     p->options = *options;
     p->options.aperture = NULL;
     p->eval = wo_table_choose(wo_cpu_detect(context->cpu));
-    int wavelengths = options->wavelengths < options->count ? options->wavelengths : options->count;
-    wo_status status = make_table(context, model, options, wavelengths, p, facts, error);
-    const double colour_px = facts->colour_px;
-    if (status == WO_OK && wavelengths > 1 && colour_px <= WO_COLOUR_PX) {
-        status = make_table(context, model, options, 1, p, facts, error);
-        facts->colour_px = colour_px;
-    }
+    p->model = model;
+    const int wavelengths =
+        options->wavelengths < options->count ? options->wavelengths : options->count;
+    wo_status status = know_lens(context, wavelengths, p, facts, error);
     if (status == WO_OK) {
-        p->uniform &= p->table->lines == 1;
+        p->uniform &= p->lines == 1;
         status = make_room(context, p, error);
     }
     if (status != WO_OK) {
@@ -364,7 +475,7 @@ wo_status wo_table_pencils_create(const wo_context *context, const wo_lens_model
     const wo_barn_doors *doors = &options->doors;
     p->has_doors = doors->left != 0 || doors->right != 0 || doors->bottom != 0 || doors->top != 0;
     p->uniform &= !p->has_doors;
-    facts->ideal = p->uniform && p->table->lines == 1 && facts->aberration_px < WO_IDEAL_PX;
+    facts->ideal = p->uniform && p->lines == 1 && facts->aberration_px < WO_IDEAL_PX;
     p->uniform &= shape.even;
     make_points(p, &shape);
     status = wo_iris_grids_create(context, &shape, p->grids, error);
@@ -372,11 +483,8 @@ wo_status wo_table_pencils_create(const wo_context *context, const wo_lens_model
         wo_table_pencils_destroy(context, &p);
         return status;
     }
-    facts->wavelengths = p->table->lines;
-    facts->degree = p->table->degree;
-    facts->nodes = p->table->nodes;
-    facts->rms_px = p->table->rms_px;
-    facts->field_lit = p->table->field_lit;
+    facts->wavelengths = p->lines;
+    facts->field_lit = p->field_lit;
     *pencils = p;
     return WO_OK;
 }
@@ -397,9 +505,11 @@ void wo_table_pencils_destroy(const wo_context *context, wo_table_pencils **penc
 /* Have all field points that get light the same rays? */
 static bool same_nodes(const wo_lens_table *table)
 {
+    if (!table)
+        return false;
     for (int line = 0; line < table->lines; line++) {
         const wo_table_node *first = &table->node[line * table->nodes];
-        for (int i = 1; i < table->lit; i++)
+        for (int i = 1; i < table->nodes; i++)
             if (memcmp(first, first + i, sizeof *first) != 0)
                 return false;
     }
@@ -412,13 +522,13 @@ wo_lens wo_table_pencils_lens(const wo_table_pencils *pencils)
                      .sets = pencils->sets,
                      .count = pencils->options.count,
                      .half = pencils->half,
-                     .colours = pencils->table->lines > 1,
+                     .colours = pencils->lines > 1,
                      .pencil = table_pencil,
                      .reach = table_reach,
                      .px_per_dioptre = pencils->options.px_per_dioptre,
                      .iris = {.grids = pencils->grids,
                               .same = !pencils->has_doors && same_nodes(pencils->table),
-                              .lines = pencils->table->lines,
+                              .lines = pencils->lines,
                               .line_weight = pencils->bands.weight,
                               .rays = table_iris_rays}};
 }

@@ -7,7 +7,8 @@
 #include "optics/pencil.h"
 #include "spectrum/bands.h"
 
-/* Pencils of any lens model, by its table: samples of the iris, each with one wavelength. */
+/* Pencils of any lens model: samples of the iris, each with one wavelength. Their rays come from a
+   table of the model, or from the model itself, traced one by one. */
 typedef struct wo_table_pencils wo_table_pencils;
 
 typedef struct wo_table_pencil_options {
@@ -22,6 +23,7 @@ typedef struct wo_table_pencil_options {
     wo_barn_doors doors;
     int count;       /* rays of a pencil */
     int wavelengths; /* 1..16 */
+    bool exact;      /* trace every ray, also where a table would do */
     uint32_t seed;
 } wo_table_pencil_options;
 
@@ -29,8 +31,10 @@ typedef struct wo_table_pencil_options {
 typedef struct wo_table_facts {
     int wavelengths; /* used: 1 when colours do not part by more than WO_COLOUR_PX */
     double colour_px;
-    int degree, nodes;
-    double rms_px; /* of the table against the model */
+    bool exact;        /* traced one by one: asked for, or no table is good enough */
+    int degree, nodes; /* of the table; 0 = none was made */
+    double rms_px;     /* of the table against the model, lens_table.h */
+    double lit_error;
     double field_lit;
     bool ideal;           /* rays are those of a thin lens to WO_IDEAL_PX */
     double beyond;        /* part of the rays that are left out because they go too far */
@@ -38,9 +42,13 @@ typedef struct wo_table_facts {
 } wo_table_facts;
 
 #define WO_COLOUR_PX 0.05
-#define WO_TABLE_PX  0.03
+#define WO_TABLE_PX  0.03 /* wanted of a table */
 #define WO_IDEAL_PX  0.001
+/* A table that is farther off than this is not used. */
+#define WO_TABLE_MOST_PX  0.25
+#define WO_TABLE_MOST_LIT 0.02
 
+/* Borrows the model. No ray goes farther than the lens's reach says, whatever the model does. */
 WO_NODISCARD wo_status wo_table_pencils_create(const wo_context *context,
                                                const wo_lens_model *model,
                                                const wo_table_pencil_options *options,

@@ -41,8 +41,9 @@ void WO_TABLE_EVAL(const wo_lens_table *table, const wo_table_node *node, const 
         vf weight = even_sum(node->weight, d, x, y2);
         weight = v_select(v_less(weight, v_set(0)), v_set(0), weight);
         vf most = v_set(0);
-        for (int k = 0; k < table->clips; k++) {
-            const vf q = even_sum(node->clip[k], WO_TABLE_CLIP_DEGREE, x, y2);
+        for (int k = 0; k < table->clips + table->edge; k++) {
+            const vf q = k < table->clips ? even_sum(node->clip[k], WO_TABLE_CLIP_DEGREE, x, y2)
+                                          : even_sum(node->edge, WO_TABLE_EDGE_DEGREE, x, y2);
             if (out->clip)
                 most = v_select(v_less(most, q), q, most);
             else

@@ -35,7 +35,7 @@ static double time_table(const wo_lens_table *table, wo_table_function *eval)
         for (int i = 0; i < RAYS; i += 64) {
             const wo_table_rays part = {out[0] + i, out[1] + i, out[2] + i,
                                         out[3] + i, out[4] + i, NULL};
-            wo_lens_table_node(table, i / 64 % table->lines, table->field_max * i / RAYS, &node);
+            wo_lens_table_node(table, i / 64 % table->lines, table->field * i / RAYS, &node);
             eval(table, &node, s + i, t + i, 64, &part);
         }
         best = fmin(best, wo_seconds() - start);
@@ -85,7 +85,7 @@ static double time_exact(const wo_lens_model *model)
         const double start = wo_seconds();
         for (int i = 0; i < COUNT; i++) {
             wo_model_ray ray = {.weight = 0};
-            (void)model->ray(model->self, model->field_max * i / 400, u[i], WO_NM_D, &ray);
+            (void)wo_lens_model_ray(model, model->field_max * i / 400, u[i], WO_NM_D, &ray);
             sum += ray.a[0] + ray.b[0];
         }
         best = fmin(best, wo_seconds() - start);
@@ -150,7 +150,10 @@ static void print_models(const wo_prescription *lens, const wo_lens_model *exact
     wo_seidel_lens seidel;
     wo_error error = {0};
     const wo_lens_model zonal_model = wo_zonal_lens_model(&zonal);
-    const wo_lens_model thin = {&zonal.radius, 0, exact->field_max, WO_NM_D, 0, thin_ray};
+    const wo_lens_model thin = {.self = &zonal.radius,
+                                .field_max = exact->field_max,
+                                .reference_nm = WO_NM_D,
+                                .ray = thin_ray};
     printf("  thin %.2f px %.1f ns", model_error(&thin, exact, focal_px, 0.4), time_exact(&thin));
     if (wo_diagram_of_lens(lens, f_number, 0.4, lines_nm, (int)WO_COUNT(lines_nm), &zonal.diagram,
                            &error) == WO_OK) {
@@ -202,8 +205,12 @@ int main(void)
             const wo_lens_model model = wo_exact_lens_model(&exact);
             const double focal_px = 1920 * first.efl / 36;
             const double start = wo_seconds();
-            if (wo_lens_table_create(&context, &model, lines_nm, (int)WO_COUNT(lines_nm), focal_px,
-                                     0.4, 0.03, &table, &error) != WO_OK)
+            const wo_lens_request request = {lines_nm, (int)WO_COUNT(lines_nm), focal_px, 0.4,
+                                             INFINITY};
+            wo_lens_lit lit;
+            if (wo_lens_lit_measure(&context, &model, &request, &lit, &error) != WO_OK ||
+                wo_lens_table_create(&context, &model, &request, &lit, 0.03, &table, &error) !=
+                    WO_OK)
                 goto fail;
             const double seconds = wo_seconds() - start;
             printf("%-28s %5.2f  %-8.4f %-9.4f %6d %5d  %9.2f %9.2f  %8.1f %8.0f %8.3f\n", names[i],

@@ -176,12 +176,21 @@ static void f_numbers(void **state)
     assert_close(chosen.f_number, o.fno, 1e-9);
 }
 
+static wo_status table_of(const wo_lens_model *model, double focal_px, wo_lens_table **table,
+                          wo_error *error)
+{
+    const wo_context context = WO_CONTEXT_INIT;
+    const wo_lens_request request = {d_line, 1, focal_px, 0.4, INFINITY};
+    wo_lens_lit lit;
+    WO_TRY(wo_lens_lit_measure(&context, model, &request, &lit, error));
+    return wo_lens_table_create(&context, model, &request, &lit, 0.03, table, error);
+}
+
 static void fields(void **state)
 {
     (void)state;
     wo_error error;
     wo_exact_lens exact;
-    const wo_context context = WO_CONTEXT_INIT;
     const wo_prescription lens = builtin("dgauss_codev_100_f2");
     static const double none[] = {0, NAN};
     for (size_t i = 0; i < WO_COUNT(none); i++) {
@@ -196,19 +205,17 @@ static void fields(void **state)
     assert_int_equal(make(&lens, 0, 0.4, 0.6, &exact, &error), WO_OK);
     const wo_lens_model model = wo_exact_lens_model(&exact);
     wo_lens_table *table;
-    assert_int_equal(
-        wo_lens_table_create(&context, &model, d_line, 1, 1920 / 0.36, 0.4, 0.03, &table, &error),
-        WO_OK);
-    assert_true(table->lit >= 4 && table->lit < table->nodes);
-    assert_true(table->field_lit > 0.2 && table->field_lit < table->field_max);
+    assert_int_equal(table_of(&model, 1920 / 0.36, &table, &error), WO_OK);
+    assert_true(table->field > 0.2 && table->field < model.field_max);
     wo_table_node edge;
     wo_table_node beyond;
-    wo_lens_table_node(table, 0, table->field_lit, &edge);
+    wo_lens_table_node(table, 0, table->field, &edge);
     static const double far[] = {1.0001, 2, 1e6, INFINITY};
     for (size_t i = 0; i < WO_COUNT(far); i++) {
-        wo_lens_table_node(table, 0, far[i] * table->field_lit, &beyond);
+        wo_lens_table_node(table, 0, far[i] * table->field, &beyond);
         assert_memory_equal(&edge, &beyond, sizeof edge);
     }
+    const wo_context context = WO_CONTEXT_INIT;
     wo_lens_table_destroy(&context, &table);
 }
 
@@ -256,7 +263,6 @@ static void light_that_is_reflected(void **state)
     (void)state;
     wo_error error;
     wo_exact_lens exact;
-    const wo_context context = WO_CONTEXT_INIT;
     /* Parallel light beyond 10 / 3.9 mm from the axis stays inside. */
     const test_surface bead[] = {{0, 10, 3.9, 9.9, true}, {-10, 5, 1, 0, false}};
     const wo_prescription lens = lens_of(bead, 2);
@@ -268,10 +274,8 @@ static void light_that_is_reflected(void **state)
     assert_true(wo_lens_model_ray(&model, 0, inside, WO_NM_D, &ray));
     assert_false(wo_lens_model_ray(&model, 0, outside, WO_NM_D, &ray));
     wo_lens_table *table;
-    const wo_status status =
-        wo_lens_table_create(&context, &model, d_line, 1, 1000, 0.4, 0.03, &table, &error);
-    assert_int_equal(status, WO_ERR_UNSUPPORTED);
-    assert_says(&error, "image circle");
+    assert_int_equal(table_of(&model, 1000, &table, &error), WO_ERR_UNSUPPORTED);
+    assert_says(&error, "too few rays");
     assert_null(table);
 }
 

@@ -59,8 +59,8 @@ static const sight sights[] = {
      .design = "petzval_kodak_100",
      .f_number = 2.2,
      .aperture = WO_APERTURE_INIT,
-     .x = 600,
-     .y = 20,
+     .x = 570,
+     .y = 30,
      .radius = -7,
      .wavelengths = 1},
     /* Blades, and a mirror in the middle as catadioptric lenses have it. */

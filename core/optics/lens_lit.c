@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright the WideOpen authors */
+#include "optics/lens_table.h"
+
+#include <math.h>
+
+enum { POINTS = 256, HALVINGS = 6 };
+
+bool wo_lens_ray_counts(const wo_lens_model *model, const wo_lens_request *request,
+                        const wo_model_ray *ray)
+{
+    const double far =
+        hypot(ray->a[0], ray->a[1]) + request->blur_dioptres * hypot(ray->b[0], ray->b[1]);
+    return wo_model_ray_clip(model, ray) <= 1 && request->focal_px * far <= request->max_px;
+}
+
+static double lit_part(const wo_lens_model *model, const wo_lens_request *request, double h)
+{
+    double u[POINTS][2];
+    wo_model_ray ray[POINTS];
+    for (int i = 0; i < POINTS; i++) {
+        const double r = sqrt((i + 0.5) / POINTS);
+        u[i][0] = r * cos(2.399963229728653 * i);
+        u[i][1] = r * sin(2.399963229728653 * i);
+    }
+    wo_lens_model_rays(model, h, &model->reference_nm, 1, (const double(*)[2])u, POINTS, ray);
+    int lit = 0;
+    for (int i = 0; i < POINTS; i++)
+        lit += wo_lens_ray_counts(model, request, &ray[i]);
+    return (double)lit / POINTS;
+}
+
+typedef struct lit_job {
+    const wo_lens_model *model;
+    const wo_lens_request *request;
+    wo_lens_lit *lit;
+} lit_job;
+
+static void lit_field(void *user, size_t index, unsigned worker)
+{
+    (void)worker;
+    const lit_job *job = user;
+    const double h = job->lit->field * (double)index / (WO_LIT_FIELDS - 1);
+    job->lit->part[index] = lit_part(job->model, job->request, h);
+}
+
+wo_status wo_lens_lit_measure(const wo_context *context, const wo_lens_model *model,
+                              const wo_lens_request *request, wo_lens_lit *lit, wo_error *error)
+{
+    *lit = (wo_lens_lit){.field = model->field_max};
+    lit_job job = {model, request, lit};
+    wo_run(context, lit_field, &job, WO_LIT_FIELDS);
+    int last = WO_LIT_FIELDS - 1;
+    while (last >= 0 && lit->part[last] < WO_LIT_LEAST)
+        last--;
+    double step = lit->field / (WO_LIT_FIELDS - 1);
+    double edge = lit->field * last / (WO_LIT_FIELDS - 1);
+    for (int i = 0; i < HALVINGS && last >= 0 && last < WO_LIT_FIELDS - 1; i++) {
+        step *= 0.5;
+        if (lit_part(model, request, edge + step) >= WO_LIT_LEAST)
+            edge += step;
+    }
+    if (!(edge > 0))
+        return wo_fail(
+            error, WO_ERR_UNSUPPORTED,
+            "the lens lights nothing beyond %.3g degrees from its axis: its image circle "
+            "is too small",
+            last < 0 ? 0 : atan(edge) * 57.29577951308232);
+    if (edge < lit->field) {
+        lit->field = edge;
+        wo_run(context, lit_field, &job, WO_LIT_FIELDS);
+    }
+    return WO_OK;
+}
+
+double wo_lens_lit_field(const wo_lens_lit *lit, double part)
+{
+    int last = WO_LIT_FIELDS - 1;
+    while (last > 0 && lit->part[last] < part)
+        last--;
+    return lit->field * last / (WO_LIT_FIELDS - 1);
+}
