@@ -316,10 +316,31 @@ float wo_highlight_hidden_from(const wo_highlight *h, const wo_lens *lens)
     return h->v + HIDES_PX / (float)lens->px_per_dioptre;
 }
 
+/* The vergence, up to v_near, at which a ray that is at the highlight at its vergence is no farther
+   from its pixel, along x and along y, than the lens promises of its rays there or at the
+   highlight: what was planned holds no more. A ray that is at neither has -INFINITY. */
+static float within_reach(const wo_highlight *h, const wo_lens *lens, const double line[4],
+                          float v_near)
+{
+    const double most = fmax(wo_highlight_extent(h->reach),
+                             1 + lens->reach(lens->self, (double)v_near, (double)v_near));
+    double part = 1;
+    for (int k = 0; k < 2; k++) {
+        const double from = line[k] + line[2 + k] * (double)h->v;
+        const double to = line[k] + line[2 + k] * (double)v_near;
+        if (!(fabs(from) <= most + 1))
+            return -INFINITY;
+        if (!(fabs(to) <= most))
+            part = fmin(part, fmax(0, (copysign(most, to) - from) / (to - from)));
+    }
+    return part < 1 ? h->v + (float)part * (v_near - h->v) : v_near;
+}
+
 float wo_highlight_seen(const wo_highlight *h, const wo_stack *stack, const wo_lens *lens,
                         unsigned sheets, int32_t x, int32_t y, const double line[4], float v_near)
 {
     const float px_per_dioptre = (float)lens->px_per_dioptre;
+    v_near = within_reach(h, lens, line, v_near);
     if (v_near <= h->v || !between(stack, sheets, x, y, line, h, v_near, px_per_dioptre))
         return 1;
     return visible(stack, sheets, x, y, line, h, v_near, px_per_dioptre);

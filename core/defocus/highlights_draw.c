@@ -2,6 +2,7 @@
 /* Copyright the WideOpen authors */
 #include "defocus/highlights.h"
 
+#include "defocus/highlights_image.h"
 #include "defocus/lens_rays.h"
 #include "defocus/point_image.h"
 
@@ -145,7 +146,12 @@ static void add_highlight(const draw_job *job, const group *g, const wo_highligh
     const wo_rect d = highlights->drawn;
     const wo_rect disc = {g->image.rect.x1 + h->x, g->image.rect.y1 + h->y, g->image.rect.x2 + h->x,
                           g->image.rect.y2 + h->y};
-    const wo_rect r = wo_rect_intersect(disc, band);
+    /* The lens promises that nothing is farther; what was planned goes no farther. */
+    const int32_t extent = wo_highlight_extent(h->reach);
+    const wo_rect planned = {h->x - extent, h->y - extent, h->x + extent + 1, h->y + extent + 1};
+    const wo_rect r = wo_rect_intersect(wo_rect_intersect(disc, planned), band);
+    if (wo_rect_empty(r))
+        return;
     const int32_t width = wo_rect_width(g->image.rect);
     for (int32_t y = r.y1; y < r.y2; y++) {
         const wo_point_pixel *p =

@@ -2,6 +2,7 @@
 /* Copyright the WideOpen authors */
 #include "defocus/stack.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -370,6 +371,7 @@ static wo_rect cells_of(const wo_stack *stack, wo_rect r)
 
 wo_bounds wo_stack_bounds(const wo_stack *stack, int sheet, wo_rect r, unsigned *flags)
 {
+    assert(wo_rect_contains(stack->area, r));
     wo_bounds out = {INFINITY, -INFINITY};
     const wo_rect cells = cells_of(stack, r);
     for (int32_t j = cells.y1; j < cells.y2; j++) {
@@ -386,6 +388,7 @@ wo_bounds wo_stack_bounds(const wo_stack *stack, int sheet, wo_rect r, unsigned 
 
 float wo_stack_step(const wo_stack *stack, int sheet, wo_rect r)
 {
+    assert(wo_rect_contains(stack->area, r));
     float step = 0;
     const wo_rect cells = cells_of(stack, r);
     for (int32_t j = cells.y1; j < cells.y2; j++) {

@@ -80,6 +80,7 @@ wo_status wo_lens_blur_prepare(const wo_lens_blur_params *wanted, const wo_geome
     setup->radius = radius;
     setup->reach = params->lens == WO_LENS_THIN ? radius : 1.25 * radius + 0.06 * width;
     setup->reach *= fmax(1, geometry->pixel_stretch);
+    setup->upright_reach = setup->reach;
     if (params->focus_by == WO_FOCUS_BY_PLANE && !setup->focus_map)
         setup->reach /= 1 - WO_FOCUS_TILT_MAX;
     setup->margin = wo_renderer_of((wo_method)params->method)->margin;

@@ -130,9 +130,10 @@ typedef struct wo_lens_blur_setup {
     bool layer_used[WO_LENS_BLUR_LAYERS];
     bool mask_used;
     bool background_used;
-    bool focus_map; /* the Focus clip says where the focus is */
-    double radius;  /* largest circle of confusion that is drawn, px */
-    double reach;   /* px: no ray of the lens goes farther, aberrations and tilt included */
+    bool focus_map;       /* the Focus clip says where the focus is */
+    double radius;        /* largest circle of confusion that is drawn, px */
+    double reach;         /* px: no ray of the lens goes farther, aberrations and tilt included */
+    double upright_reach; /* the same before the tilt */
     double v_min, v_max;
     int32_t margin;  /* px round a window that the method wants tiles for */
     int fill_levels; /* of the continuation of hidden surfaces; 0 = no depth, nothing to continue */

@@ -5,6 +5,7 @@
 #include "optics/lens_choice.h"
 
 #include <math.h>
+#include <stdio.h>
 
 /* Tangent of the farthest field point that a table is made for: some 85 degrees. */
 #define FIELD_MAX 11.0
@@ -50,6 +51,25 @@ static void destroy_tables(wo_plan *plan)
 {
     for (int i = WO_LEVELS_MAX - 1; i >= 0; i--)
         wo_table_pencils_destroy(&plan->context, &plan->table[i]);
+    wo_delete(&plan->context, plan->chosen);
+    plan->chosen = NULL;
+}
+
+/* Says why rays are traced one by one that were to come from a table. */
+static void warn_table(wo_plan *plan)
+{
+    const wo_table_facts *f = &plan->facts;
+    char why[128] = "it lets too few rays through for one";
+    if (isfinite(f->rms_px))
+        snprintf(why, sizeof why,
+                 "the best one is off by %.2g px RMS (at most %g) and by %.2g of the lit iris (at "
+                 "most %g)",
+                 f->rms_px, WO_TABLE_MOST_PX, f->lit_error, WO_TABLE_MOST_LIT);
+    wo_report_warn(
+        &plan->report, "lens-table",
+        "no table can stand for this lens at f/%.3g: %s. Its rays are traced one by one: "
+        "right, but slow. A smaller aperture or field makes it fast",
+        plan->f_number, why);
 }
 
 /* Any lens but the thin one, through its table. */
@@ -68,13 +88,14 @@ static wo_status make_table_lens(wo_plan *plan, wo_error *error)
         .stretch = g->pixel_stretch,
         .centre_x = 0.5 * (g->format.x1 + g->format.x2),
         .centre_y = 0.5 * (g->format.y1 + g->format.y2),
-        .max_reach = s->reach * fmax(1, g->pixel_stretch) + 0.25,
+        .max_reach = s->upright_reach,
         .v_limit = s->v_max,
         .half_diagonal =
             0.5 * hypot(wo_rect_width(g->format), wo_rect_height(g->format) / g->pixel_stretch),
         .doors = {p->door_left, p->door_right, p->door_bottom, p->door_top},
         .count = count[0],
         .wavelengths = wavelengths,
+        .exact = p->method == WO_METHOD_REFERENCE,
         .seed = (uint32_t)p->seed,
     };
     const double dx = fmax(far.x2 - options.centre_x, options.centre_x - far.x1);
@@ -99,9 +120,10 @@ static wo_status make_table_lens(wo_plan *plan, wo_error *error)
         .nm = bands.nm,
         .lines = bands.count,
     };
-    wo_chosen_lens *chosen = wo_new(&plan->context, error, 1, sizeof *chosen);
+    wo_chosen_lens *const chosen = wo_new(&plan->context, error, 1, sizeof *chosen);
     if (!chosen)
         return WO_ERR_NOMEM;
+    plan->chosen = chosen;
     wo_status status = wo_lens_choose(&choice, chosen, error);
     if (status == WO_OK) {
         options.px_per_dioptre =
@@ -113,7 +135,6 @@ static wo_status make_table_lens(wo_plan *plan, wo_error *error)
                                             &plan->table[i], error);
     }
     plan->f_number = chosen->f_number;
-    wo_delete(&plan->context, chosen);
     if (status != WO_OK)
         return status;
     for (int i = 0; i < plan->lenses; i++)
@@ -122,6 +143,8 @@ static wo_status make_table_lens(wo_plan *plan, wo_error *error)
         wo_report_leave_out(&plan->report, "wavelengths",
                             "colours part by less than a twentieth of a pixel",
                             wavelengths - plan->facts.wavelengths, "wavelengths");
+    if (plan->facts.exact && !options.exact)
+        warn_table(plan);
     if (plan->facts.beyond > 0)
         wo_report_leave_out(&plan->report, "lens rays", "they go farther than the largest blur",
                             100 * plan->facts.beyond, "% of those tried");

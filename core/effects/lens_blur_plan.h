@@ -6,6 +6,7 @@
 #include "defocus/renderer.h"
 #include "effects/lens_blur.h"
 #include "focus/focus.h"
+#include "optics/lens_choice.h"
 #include "optics/pencil_table.h"
 #include "optics/pencil_tilt.h"
 
@@ -25,6 +26,7 @@ struct wo_plan {
     int taps;                                /* one for wo_defocus.taps; -1 = not wanted */
     wo_thin_pencils *pencils[WO_LEVELS_MAX]; /* the one or the other */
     wo_table_pencils *table[WO_LEVELS_MAX];  /* [0] owns the table */
+    wo_chosen_lens *chosen;                  /* what they were made of */
     wo_lens level[WO_LEVELS_MAX];
     wo_table_facts facts;       /* of the table */
     wo_aperture_shape aperture; /* for showing it */

@@ -89,10 +89,15 @@ int wo_lens_blur_plan_print(const wo_plan *plan, char *buffer, size_t size)
             "up to %.2f px in the plane of focus\n",
             wo_lens_blur_lens_labels[plan->params.lens], design[0] ? " " : "", design,
             plan->f_number, f->wavelengths, f->colour_px, f->aberration_px);
-        add(&p,
-            "table       degree %d, %d field points; %.4f px RMS from the exact rays; lit to %.1f "
-            "degrees\n",
-            f->degree, f->nodes, f->rms_px, atan(f->field_lit) * (180 / 3.14159265358979323846));
+        if (f->exact)
+            add(&p, "rays        traced exactly, one by one");
+        else
+            add(&p,
+                "table       degree %d, %d field points; %.4f px RMS from the exact rays, %.3f of "
+                "the "
+                "lit iris",
+                f->degree, f->nodes, f->rms_px, f->lit_error);
+        add(&p, "; lit to %.1f degrees\n", atan(f->field_lit) * (180 / 3.14159265358979323846));
     }
     if (plan->copy) {
         add(&p, "blur        none: all in focus, the source is copied\n");
