@@ -66,17 +66,6 @@ bool wo_is_extension(const char *name)
 void wo_note_extension(wo_host *host, const char *name)
 {
     const wo_frame *frame = wo_frame_now();
-    host = wo_host_to_blame(host);
-    if (!host)
-        return;
-    pthread_mutex_lock(&host->lock);
-    bool known = false;
-    for (size_t i = 0; i < host->extensions.count && !known; i++)
-        known = strcmp(host->extensions.items[i], name) == 0;
-    if (!known)
-        known = !wo_texts_add(&host->extensions, name); /* without memory: silence */
-    pthread_mutex_unlock(&host->lock);
-    if (!known)
-        wo_note(host, "%s sets \"%.80s\", an extension that this host does not have",
-                frame && frame->entry ? frame->entry->info.identifier : "a plugin", name);
+    wo_note_once(host, name, "%s sets \"%.80s\", an extension that this host does not have",
+                 frame && frame->entry ? frame->entry->info.identifier : "a plugin", name);
 }

@@ -92,6 +92,25 @@ void wo_note_failure(wo_host *host, const char *format, ...)
     va_end(args);
 }
 
+void wo_note_once(wo_host *host, const char *key, const char *format, ...)
+{
+    host = wo_host_to_blame(host);
+    if (!host)
+        return;
+    pthread_mutex_lock(&host->lock);
+    bool known = false;
+    for (size_t i = 0; i < host->noted.count && !known; i++)
+        known = strcmp(host->noted.items[i], key) == 0;
+    if (!known)
+        known = !wo_texts_add(&host->noted, key); /* without memory: silence */
+    pthread_mutex_unlock(&host->lock);
+    va_list args;
+    va_start(args, format);
+    if (!known)
+        note(host, false, format, args);
+    va_end(args);
+}
+
 static void violate(wo_host *host, const wo_frame *frame, const char *format, va_list args)
 {
     char text[1024];
@@ -258,7 +277,7 @@ void wo_host_destroy(wo_host **place)
     wo_texts_clear(&host->violations);
     wo_texts_clear(&host->notes);
     wo_texts_clear(&host->failures);
-    wo_texts_clear(&host->extensions);
+    wo_texts_clear(&host->noted);
     pthread_mutex_destroy(&host->lock);
     free(host);
     *place = NULL;

@@ -114,10 +114,11 @@ static wo_rect wanted(const wo_host_instance *instance, const wo_port *port, siz
     const wo_host_region asked = {region->x1, region->y1, region->x2, region->y2};
     const wo_rect pixels =
         wo_rect_intersect(wo_region_pixels(asked, frame->scale[0], frame->scale[1], aspect), all);
+    /* Legal, but a host that fetches regions beforehand has to fetch once more. */
     if (frame->tile && time == frame->time && !wo_rect_contains(needed, pixels))
-        wo_violate(instance->object.host,
-                   "clipGetImage of \"%.80s\" beyond the region of interest given for it",
-                   port->name);
+        wo_note_once(instance->object.host, "beyond the region of interest",
+                     "%s: clipGetImage of \"%.80s\" beyond the region of interest given for it",
+                     instance->object.entry->info.identifier, port->name);
     return pixels;
 }
 

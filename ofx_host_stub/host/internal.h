@@ -251,10 +251,10 @@ typedef struct wo_binary wo_binary;
 struct wo_host {
     wo_host_config config; /* without the directories */
     wo_pool *pool;
-    pthread_mutex_t lock; /* violations, notes, extensions */
+    pthread_mutex_t lock; /* violations, notes */
     wo_texts violations;
     wo_texts notes, failures;
-    wo_texts extensions;  /* names of properties that have left a note */
+    wo_texts noted;       /* keys of what is noted once */
     wo_texts describer;   /* command line; none = plugins are described here */
     char *cache;          /* folder, or NULL */
     bool cache_told;      /* that it cannot be written */
@@ -277,6 +277,8 @@ void wo_violate(wo_host *host, const char *format, ...) WO_PRINTF(2, 3);
 void wo_violate_in(const wo_frame *frame, const char *format, ...) WO_PRINTF(2, 3); /* afterwards */
 wo_host *wo_host_to_blame(wo_host *host); /* host itself, or as above; NULL when there is none */
 void wo_note(wo_host *host, const char *format, ...) WO_PRINTF(2, 3);
+/* The same, once for each key. host may be NULL, as above. Any thread. */
+void wo_note_once(wo_host *host, const char *key, const char *format, ...) WO_PRINTF(3, 4);
 void wo_note_failure(wo_host *host, const char *format, ...) WO_PRINTF(2, 3); /* is a note, too */
 
 /* false when out of memory. text is copied. */

@@ -103,6 +103,8 @@ void assert_no_violations(wo_host *host)
     for (size_t i = 0; i < count; i++)
         print_error("violation: %s\n", wo_host_violation(host, i));
     assert_int_equal(count, 0);
+    for (size_t i = 0; i < wo_host_note_count(host); i++)
+        assert_null(strstr(wo_host_note(host, i), "beyond the region of interest"));
 }
 
 void close_host(wo_host **host)

@@ -106,7 +106,6 @@ static const misdeed misdeeds[] = {
     {"identity with nobody", "identity with \"Nobody\", which is no input clip"},
     /* Render */
     {"another time", "clipGetImage of \"Source\" at another time without temporal access"},
-    {"beyond the region of interest", "clipGetImage of \"Source\" beyond the region of interest"},
     {"window not written", "pixels of the render window were not written"},
     {"write outside window", "pixels of the output outside of the render window were written"},
     {"write outside buffer", "bytes outside of the output image were written"},

@@ -189,10 +189,17 @@ static OfxStatus preferences(OfxImageEffectHandle effect, OfxPropertySetHandle o
 static OfxStatus render(OfxImageEffectHandle effect, OfxPropertySetHandle in)
 {
     OfxRectI w = {0, 0, 0, 0};
-    picture output;
+    picture output, source;
+    const OfxRectD wide = {-1e6, -1e6, 1e6, 1e6};
     double time = 0;
     ofx.prop->propGetDouble(in, kOfxPropTime, 0, &time);
     ofx.prop->propGetIntN(in, kOfxImageEffectPropRenderWindow, 4, &w.x1);
+    /* more than was asked for beforehand, cut to what there is */
+    must(picture_get(clip_of(effect, kOfxImageEffectSimpleSourceClipName), time, &wide, &source),
+         kOfxStatOK);
+    if (source.bounds.x2 - source.bounds.x1 < w.x2 - w.x1)
+        failed = kOfxStatFailed;
+    must(ofx.effect->clipReleaseImage(source.handle), kOfxStatOK);
     if (picture_get(clip_of(effect, kOfxImageEffectOutputClipName), time, NULL, &output) !=
         kOfxStatOK)
         return kOfxStatFailed;
