@@ -155,14 +155,18 @@ static OfxStatus clip_get_region(OfxImageClipHandle clip, OfxTime time, OfxRectD
     }
     const wo_frame *frame = wo_frame_now();
     wo_host_instance *const instance = (wo_host_instance *)port->owner;
+    wo_status status = WO_OK;
     if (port->output && frame && frame->tile)
         region = frame->tile->canonical;
     else if (port->output && instance->has_region && instance->region_time == time)
         region = instance->region;
-    else if (!port->output && !port->connected)
-        return kOfxStatOK; /* nothing there is a region, too */
-    else if ((port->output ? wo_default_region(instance, time, &region, NULL)
-                           : wo_port_region(port, time, &region, NULL)) != WO_OK)
+    else if (port->output)
+        status = wo_default_region(instance, time, &region, NULL);
+    else
+        status = wo_port_region(port, time, &region, NULL);
+    if (status == WO_ERR_NOMEM)
+        return kOfxStatErrMemory;
+    if (status != WO_OK && status != WO_ERR_NOT_FOUND) /* nothing there is a region, too */
         return kOfxStatFailed;
     *bounds = (OfxRectD){region.x1 <= -WO_INFINITE ? kOfxFlagInfiniteMin : region.x1,
                          region.y1 <= -WO_INFINITE ? kOfxFlagInfiniteMin : region.y1,
