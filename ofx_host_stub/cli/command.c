@@ -6,6 +6,7 @@
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
@@ -41,13 +42,23 @@ void wo_put_clean(const char *text, FILE *out)
     }
 }
 
+/* Lines of any length; those of several threads stay whole. */
 static void print_message(const char *format, va_list list)
 {
     char text[2048];
-    vsnprintf(text, sizeof text, format, list);
+    va_list again;
+    va_copy(again, list);
+    const int length = vsnprintf(text, sizeof text, format, list);
+    char *const longer = length >= (int)sizeof text ? malloc((size_t)length + 1) : NULL;
+    if (longer)
+        vsnprintf(longer, (size_t)length + 1, format, again);
+    va_end(again);
+    flockfile(stderr);
     fputs("wideopen: ", stderr);
-    wo_put_clean(text, stderr);
+    wo_put_clean(longer ? longer : text, stderr);
     fputc('\n', stderr);
+    funlockfile(stderr);
+    free(longer);
 }
 
 void wo_message(const char *format, ...)

@@ -194,11 +194,16 @@ wo_status wo_act_on(wo_host_instance *instance, wo_frame *frame, wo_props *in, w
     if (status == kOfxStatOK || status == kOfxStatReplyDefault)
         return WO_OK;
     pthread_mutex_lock(&instance->lock);
+    const char *text = instance->persistent ? instance->persistent : "";
     const wo_status failed =
-        wo_fail(error, status_of(status), "%.60s: %s%s%.100s", wo_action_text(frame->action),
-                wo_ofx_status_text(status), instance->persistent ? ": " : "",
-                instance->persistent ? instance->persistent : "");
+        wo_fail(error, status_of(status), "%.60s: %s%s%s", wo_action_text(frame->action),
+                wo_ofx_status_text(status), *text ? ": " : "", text);
+    char *whole = error && !strstr(error->text, text) ? wo_text_copy(text) : NULL;
     pthread_mutex_unlock(&instance->lock);
+    const wo_host_config *config = &instance->object.host->config;
+    if (whole && config->message)
+        (void)config->message(config->user, WO_HOST_MESSAGE_ERROR, "", whole);
+    free(whole);
     return failed;
 }
 

@@ -70,6 +70,16 @@ static void check_params(const wo_object *object)
     }
 }
 
+/* A plugin for several inputs that has no Source as a Filter, but has them all in General. */
+static bool is_rather_general(const wo_object *object)
+{
+    return strcmp(object->context, kOfxImageEffectContextFilter) == 0 &&
+           !wo_object_port(object, kOfxImageEffectSimpleSourceClipName) &&
+           wo_object_port(object, kOfxImageEffectOutputClipName) &&
+           wo_props_has_text(&object->props, kOfxImageEffectPropSupportedContexts,
+                             kOfxImageEffectContextGeneral);
+}
+
 /* Clips a context cannot be without. */
 static bool check_clips(const wo_object *object)
 {
@@ -152,7 +162,7 @@ static OfxStatus describe(wo_entry *entry)
 
 /* The descriptor of a context starts as a copy of the plain one. */
 static bool describe_context(wo_entry *entry, const char *context, wo_object **out,
-                             OfxStatus *status)
+                             OfxStatus *status, bool *rather_general)
 {
     wo_props in;
     wo_object *object = object_new(entry, context);
@@ -176,8 +186,13 @@ static bool describe_context(wo_entry *entry, const char *context, wo_object **o
     if (ready && *status == kOfxStatOK) {
         wo_frame_set(&frame); /* so that faults are blamed on this action */
         check_params(object);
-        if (!check_clips(object))
+        if (is_rather_general(object)) {
+            *rather_general = true;
+            wo_note(entry->host, "%s: %s has no clip Source as Filter: General is offered",
+                    entry->bundle, entry->identifier);
+        } else if (!check_clips(object)) {
             *status = kOfxStatFailed;
+        }
         wo_frame_set(frame.outer);
     }
     return ready;
@@ -334,8 +349,17 @@ static bool fill_plugin(wo_entry *entry)
     return ok;
 }
 
+/* The answer of a plugin that fails; with the breach that it commits, if it does. */
+static void note_failure(wo_entry *entry, const char *what, OfxStatus status, size_t breaches)
+{
+    const char *breach = wo_host_violation(entry->host, breaches);
+    wo_note_failure(entry->host, "%s: %s %s: %s%s%s", entry->bundle, entry->identifier, what,
+                    wo_ofx_status_text(status), breach ? "; " : "", breach ? breach : "");
+}
+
 bool wo_entry_describe(wo_entry *entry)
 {
+    const size_t breaches = wo_host_violation_count(entry->host);
     wo_host *host = entry->host;
     const char *identifier = entry->info.identifier;
     OfxStatus status = describe(entry);
@@ -344,8 +368,7 @@ bool wo_entry_describe(wo_entry *entry)
         status = describe(entry);
     }
     if (status != kOfxStatOK) {
-        wo_note_failure(host, "%s: %s does not describe itself: %s", entry->bundle, identifier,
-                        wo_ofx_status_text(status));
+        note_failure(entry, "does not describe itself", status, breaches);
         return false;
     }
     wo_frame frame = {.outer = wo_frame_now(),
@@ -364,8 +387,12 @@ bool wo_entry_describe(wo_entry *entry)
         if (!wo_props_has_text(&entry->descriptor->props, kOfxImageEffectPropSupportedContexts,
                                contexts[i].name))
             continue;
-        ok = describe_context(entry, contexts[i].name, &entry->contexts[n], &status);
-        if (ok && status == kOfxStatOK) {
+        bool rather_general = false;
+        ok = describe_context(entry, contexts[i].name, &entry->contexts[n], &status,
+                              &rather_general);
+        if (rather_general) {
+            object_free(&entry->contexts[n]);
+        } else if (ok && status == kOfxStatOK) {
             ok = fill_context(&entry->context_infos[n], entry->contexts[n], contexts[i].short_name);
             entry->context_count++;
         } else if (ok) {
@@ -380,8 +407,7 @@ bool wo_entry_describe(wo_entry *entry)
     else if (entry->context_count == 0 && status == kOfxStatOK)
         wo_note(host, "%s: %s has no context this host can run", entry->bundle, identifier);
     else if (entry->context_count == 0)
-        wo_note_failure(host, "%s: %s describes itself in no context this host can run: %s",
-                        entry->bundle, identifier, wo_ofx_status_text(status));
+        note_failure(entry, "describes itself in no context this host can run", status, breaches);
     return ok && entry->context_count > 0;
 }
 

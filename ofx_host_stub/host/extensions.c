@@ -13,6 +13,7 @@ static const char *const names[] = {
     "OfxParamPropLayoutHint",
     "OfxParamPropLayoutPadWidth",
     "OfxParamPropChoiceLabelOption",
+    "OfxParamPropChoiceOrder", /* of the standard, for menus, which this host has none of */
     "OfxImageEffectPropIdentityPlane",
     "OfxImageEffectPropRenderPlanes",
     "OfxImageEffectPropRenderAllPlanes",

@@ -73,7 +73,8 @@ typedef struct wo_host_config {
 
     void *user; /* given to the three callbacks */
 
-    /* A plugin says something; id may be "". The return value matters for questions only: true is
+    /* A plugin says something; id may be "". Persistent messages come here when they are too long
+       for the error of a call that fails. The return value matters for questions only: true is
        yes. Any thread. NULL = dropped, questions are answered no. */
     bool (*message)(void *user, wo_host_message type, const char *id, const char *text);
 

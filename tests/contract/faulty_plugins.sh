@@ -54,6 +54,14 @@ says_not failed
 expect 0 render Fresh --size 8x8 --strict -o fresh.exr --plugin-path "$plugins/fresh"
 present fresh.exr
 
+# What a plugin says when it fails is not cut.
+WO_TEST_REFUSES=$(printf '%03000d' 7)
+export WO_TEST_REFUSES
+expect 1 render Fresh --size 8x8 -o refused.exr
+says "plugin.*$WO_TEST_REFUSES\$"
+absent refused.exr
+unset WO_TEST_REFUSES
+
 # Everything: the list is made, and says who fails and why.
 expect 0 list --plugin-wait 3
 shows '^org.wideopen.LensBlur '

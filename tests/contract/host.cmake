@@ -36,7 +36,7 @@ wo_host_test_plugin(host_plugin_fresh fresh Fresh fresh.c)
 # Plugins no host wants to live with, each in a folder named by its fault; those that never answer
 # are in folders of their own.
 foreach(fault IN ITEMS LoadCrash LoadExit LoadShout DescribeCrash DescribeExit DescribeThread
-        DescribeWrong UnloadCrash CountMany CountNegative GetCrash GetNull)
+        DescribeMerge DescribeWrong UnloadCrash CountMany CountNegative GetCrash GetNull)
     wo_host_test_plugin(host_plugin_${fault} faulty ${fault} faulty.c)
     target_compile_definitions(host_plugin_${fault} PRIVATE WO_TEST_FAULT="${fault}")
 endforeach()

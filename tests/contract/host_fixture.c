@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-char fixture_message[256];
+char fixture_message[4096];
 int fixture_progress_calls;
 
 static bool take_message(void *user, wo_host_message type, const char *id, const char *text)

@@ -40,7 +40,7 @@ void fixture_no_violations(wo_host *host);
 void fixture_violation(wo_host *host, const char *text);
 
 /* Text of the last message plugins sent to hosts of fixture_host; number of progress calls. */
-extern char fixture_message[256];
+extern char fixture_message[4096];
 extern int fixture_progress_calls;
 
 #define ok(call)                                                                                   \

@@ -47,6 +47,14 @@ static void faults_stay_where_they_are(void **state)
     apart_failure(host, "/DescribeExit.ofx.bundle: ended its process (code 3) ",
                   "while " TEST "DescribeExit.Middle described itself");
     assert_has(host, "DescribeThread", "FML");
+    /* Without a Source it is no filter, and with General no fault; the others are only filters. */
+    assert_has(host, "DescribeMerge", "-M-");
+    const wo_host_found *merge = apart_found(host, TEST "DescribeMerge.Middle");
+    assert_int_equal(merge->context_count, 1);
+    assert_string_equal(merge->contexts[0], "General");
+    assert_int_equal(merge->breaches, 0);
+    apart_failure(host, TEST "DescribeMerge.First", "the clip \"Source\" is not defined");
+    apart_failure(host, TEST "DescribeMerge.Last", "kOfxStatFailed");
     assert_has(host, "DescribeWrong", "FML");
     assert_has(host, "UnloadCrash", "FML");
     apart_failure(host, "/UnloadCrash.ofx.bundle: crashed (signal 6, ", "while it was unloaded");
@@ -57,7 +65,7 @@ static void faults_stay_where_they_are(void **state)
     assert_has(host, "GetCrash", "F-L");
     apart_failure(host, "/GetCrash.ofx.bundle: crashed (signal 6, ", "while plugin 1 was fetched");
     assert_has(host, "GetNull", "F-L");
-    assert_int_equal(wo_host_failure_count(host), 8);
+    assert_int_equal(wo_host_failure_count(host), 10);
     /* What they say of themselves is one line; who breaks rules is told apart. */
     const wo_host_found *wrong = apart_found(host, TEST "DescribeWrong.Middle");
     assert_string_equal(wrong->label, "A label that is longer than any column");

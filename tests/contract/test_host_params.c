@@ -5,6 +5,7 @@
 #include <locale.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Parameters through the public functions: text in, text out, and what the plugin is told. */
@@ -228,9 +229,42 @@ static void buttons_do_their_work(void **state)
 
 #define with_instance(test) cmocka_unit_test_setup_teardown(test, set_up, tear_down)
 
+/* What a plugin says when it fails arrives whole: in the error, or else as a message. */
+static void reasons_arrive_whole(void **state)
+{
+    char reason[3001];
+    (void)state;
+    wo_host *fresh = fixture_host("fresh", 1, false, 0);
+    wo_host_instance *one = fixture_instance(fresh, "Fresh", NULL);
+    const wo_host_render_args args = {.time = 1, .scale_x = 1, .scale_y = 1};
+    static const size_t lengths[] = {20, 150, 3000};
+    for (size_t i = 0; i < WO_COUNT(lengths); i++) {
+        wo_image image = {0};
+        wo_error error = {0};
+        for (size_t k = 0; k < lengths[i]; k++)
+            reason[k] = (char)('a' + k % 26);
+        reason[lengths[i]] = '\0';
+        assert_int_equal(setenv("WO_TEST_REFUSES", reason, 1), 0);
+        fixture_message[0] = '\0';
+        assert_int_equal(wo_host_render(one, &args, &image, NULL, &error), WO_ERR_LIBRARY);
+        assert_int_equal(unsetenv("WO_TEST_REFUSES"), 0);
+        assert_non_null(strstr(error.text, "Render: kOfxStatFailed: abc"));
+        if (lengths[i] < sizeof error.text - 60) {
+            assert_non_null(strstr(error.text, reason));
+            assert_string_equal(fixture_message, "");
+        } else {
+            assert_string_equal(fixture_message, reason);
+        }
+        assert_string_equal(wo_host_persistent_message(one), reason);
+    }
+    wo_host_instance_destroy(&one);
+    wo_host_destroy(&fresh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(reasons_arrive_whole),
         with_instance(text_is_read_back),
         with_instance(defaults_are_those_described),
         with_instance(wrong_text_changes_nothing),

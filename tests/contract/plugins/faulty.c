@@ -77,6 +77,13 @@ static OfxStatus describe(OfxImageEffectHandle effect, bool faulty)
     ofx.prop->propSetString(p, kOfxPropLabel, 0,
                             faulty ? "A label that is longer\tthan\nany column" : "Harmless");
     ofx.prop->propSetString(p, kOfxImageEffectPropSupportedPixelDepths, 0, kOfxBitDepthFloat);
+    if (fault("DescribeMerge")) {
+        ofx.prop->propSetString(p, kOfxImageEffectPropSupportedContexts, 0,
+                                kOfxImageEffectContextFilter);
+        return faulty ? ofx.prop->propSetString(p, kOfxImageEffectPropSupportedContexts, 1,
+                                                kOfxImageEffectContextGeneral)
+                      : kOfxStatOK;
+    }
     return ofx.prop->propSetString(p, kOfxImageEffectPropSupportedContexts, 0,
                                    kOfxImageEffectContextGenerator);
 }
@@ -96,7 +103,13 @@ static OfxStatus act(const char *action, const void *handle, bool faulty)
     if (strcmp(action, kOfxActionDescribe) == 0)
         return describe(effect, faulty);
     if (strcmp(action, kOfxImageEffectActionDescribeInContext) == 0) {
-        OfxPropertySetHandle p = define_clip(effect, kOfxImageEffectOutputClipName, false);
+        OfxPropertySetHandle p;
+        if (fault("DescribeMerge")) {
+            p = define_clip(effect, "A", false);
+            ofx.prop->propSetString(p, kOfxImageEffectPropSupportedComponents, 0,
+                                    kOfxImageComponentRGBA);
+        }
+        p = define_clip(effect, kOfxImageEffectOutputClipName, false);
         return ofx.prop->propSetString(p, kOfxImageEffectPropSupportedComponents, 0,
                                        kOfxImageComponentRGBA);
     }

@@ -2,8 +2,8 @@
 /* Copyright the WideOpen authors */
 
 /* A plugin whose struct is made by OfxGetPlugin and freed by Unload, as many libraries do: who
-   calls it again must have asked for it again. Its other actions do what faulty.c's harmless ones
-   do. */
+   calls it again must have asked for it again. It paints grey, or refuses to with the message that
+   the environment variable WO_TEST_REFUSES holds. */
 
 #include "host_plugin.h"
 
@@ -27,6 +27,11 @@ static OfxStatus render(OfxImageEffectHandle effect, OfxPropertySetHandle in)
     double time = 0;
     OfxRectI window = {0};
     picture output;
+    const char *refuses = getenv("WO_TEST_REFUSES");
+    if (refuses) {
+        ofx.message->setPersistentMessage(effect, kOfxMessageError, "", "%s", refuses);
+        return kOfxStatFailed;
+    }
     ofx.prop->propGetDouble(in, kOfxPropTime, 0, &time);
     ofx.prop->propGetIntN(in, kOfxImageEffectPropRenderWindow, 4, &window.x1);
     if (picture_get(clip_of(effect, kOfxImageEffectOutputClipName), time, NULL, &output) !=
