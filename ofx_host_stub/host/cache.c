@@ -2,6 +2,8 @@
 /* Copyright the WideOpen authors */
 #include "catalogue.h"
 
+#include "wideopen/base.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -14,7 +16,7 @@
 
 /* A file for each binary, named by a hash of its path:
 
-       wideopen-plugins FORMAT
+       wideopen-plugins FORMAT VERSION
        file PATH
        bundle PATH
        state SIZE SECONDS NANOSECONDS
@@ -22,11 +24,12 @@
        (lines of the catalogue)
        end HASH
 
-   with tabulators between fields. HASH is of all that stands before its line: a file that is cut or
-   changed is as good as none. What had failed counts on the machine where it did, and not for long:
-   somebody may have mended it without touching the binary. */
+   with tabulators between fields. VERSION is that of the host, whose judgement is written here.
+   HASH is of all that stands before its line: a file that is cut or changed is as good as none.
+   What had failed counts on the machine where it did, and not for long: somebody may have mended it
+   without touching the binary. */
 
-#define FORMAT         "wideopen-plugins\t1"
+#define FORMAT         "wideopen-plugins\t1\t" WO_VERSION_TEXT
 #define BYTES_MAX      (4l << 20)
 #define FAILURE_COUNTS 3600 /* seconds */
 
