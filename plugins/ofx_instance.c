@@ -6,6 +6,7 @@
 #include "ofx_geometry.h"
 
 #include <stdio.h>
+#include <string.h>
 
 OfxStatus wo_ofx_instance_create(const wo_ofx_plugin *plugin, OfxImageEffectHandle handle)
 {
@@ -22,6 +23,8 @@ OfxStatus wo_ofx_instance_create(const wo_ofx_plugin *plugin, OfxImageEffectHand
     atomic_init(&instance->complaining, false);
     atomic_init(&instance->progressing, false);
     atomic_init(&instance->warning, 0);
+    atomic_init(&instance->kinds, 0);
+    atomic_init(&instance->place, 0);
     atomic_init(&instance->popped_up, 0);
     /* A host that cannot keep it must do without the flags. */
     if (suites->property->propSetPointer(properties, kOfxPropInstanceData, 0, instance) !=
@@ -142,44 +145,70 @@ OfxStatus wo_ofx_action_end(wo_ofx_action *action, wo_status status, bool done)
 }
 
 /* FNV-1a, never 0. */
-static uint64_t hash_of(const char *text)
+static uint64_t hash_of(const void *data, size_t size)
 {
+    const unsigned char *const bytes = data;
     uint64_t hash = 0xcbf29ce484222325u;
-    for (; *text; text++)
-        hash = (hash ^ (unsigned char)*text) * 0x100000001b3u;
+    for (size_t i = 0; i < size; i++)
+        hash = (hash ^ bytes[i]) * 0x100000001b3u;
     return hash ? hash : 1;
 }
 
-void wo_ofx_warn(const wo_ofx_action *action, const wo_report *report, bool whole)
+/* All texts of a report, one a line; *kinds gets a bit for each key. */
+static size_t join(const wo_report *report, char *text, size_t size, uint64_t *kinds)
+{
+    size_t used = 0;
+    *kinds = 0;
+    for (int i = 0; i < report->warning_count; i++) {
+        const char *const key = report->warnings[i].key;
+        *kinds |= (uint64_t)1 << hash_of(key, strlen(key)) % 64;
+        used += (size_t)snprintf(text + used, size - used, "%s%s", used ? "\n" : "",
+                                 report->warnings[i].text);
+    }
+    return used;
+}
+
+/* Should this text take the place of what stands there? Of a tile only if it tells of more. */
+static bool is_news(wo_ofx_instance *instance, uint64_t hash, uint64_t kinds, uint64_t place,
+                    bool whole)
+{
+    if (!instance)
+        return true;
+    const uint64_t told =
+        whole ? atomic_exchange(&instance->kinds, kinds) : atomic_fetch_or(&instance->kinds, kinds);
+    const uint64_t now = atomic_load(&instance->warning);
+    if (now != 0 && (whole ? now == hash : (told | kinds) == told))
+        return false;
+    atomic_store(&instance->place, place);
+    return atomic_exchange(&instance->warning, hash) != hash;
+}
+
+void wo_ofx_warn(const wo_ofx_action *action, const wo_report *report, wo_rect window)
 {
     const OfxMessageSuiteV1 *const one = action->suites->message;
     const OfxMessageSuiteV2 *const two = action->suites->message2;
     wo_ofx_instance *const instance = action->instance;
+    const bool whole = wo_rect_contains(window, action->geometry.extent);
+    const int32_t sides[4] = {window.x1, window.y1, window.x2, window.y2};
+    const uint64_t place = hash_of(sides, sizeof sides);
     char text[WO_WARNINGS_MAX * (WO_WARNING_SIZE + 1)] = "";
-    uint64_t kinds = 0;
-    size_t used = 0;
-    for (int i = 0; i < report->warning_count; i++) {
-        kinds |= (uint64_t)1 << hash_of(report->warnings[i].key) % 64;
-        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", used ? "\n" : "",
-                                 report->warnings[i].text);
-    }
-    if (!used) {
-        if (whole && instance && atomic_exchange(&instance->warning, 0) && two &&
-            two->clearPersistentMessage)
-            two->clearPersistentMessage(action->handle);
-        return;
-    }
-    if (two && two->setPersistentMessage) {
-        const uint64_t hash = hash_of(text);
-        if (!instance || atomic_exchange(&instance->warning, hash) != hash)
+    uint64_t kinds;
+    const size_t length = join(report, text, sizeof text, &kinds);
+    if (length == 0) {
+        if (instance && (whole || atomic_load(&instance->place) == place) &&
+            atomic_exchange(&instance->warning, 0)) {
+            atomic_store(&instance->kinds, 0);
+            if (two && two->clearPersistentMessage)
+                two->clearPersistentMessage(action->handle);
+        }
+    } else if (two && two->setPersistentMessage) {
+        if (is_news(instance, hash_of(text, length), kinds, place, whole))
             two->setPersistentMessage(action->handle, kOfxMessageWarning, "WideOpenWarning", "%s",
                                       text);
-        return;
+    } else if (instance && (atomic_fetch_or(&instance->popped_up, kinds) & kinds) != kinds) {
+        if (one && one->message)
+            one->message(action->handle, kOfxMessageWarning, "WideOpenWarning", "%s", text);
+        else if (two && two->message)
+            two->message(action->handle, kOfxMessageWarning, "WideOpenWarning", "%s", text);
     }
-    if (!instance || (atomic_fetch_or(&instance->popped_up, kinds) & kinds) == kinds)
-        return;
-    if (one && one->message)
-        one->message(action->handle, kOfxMessageWarning, "WideOpenWarning", "%s", text);
-    else if (two && two->message)
-        two->message(action->handle, kOfxMessageWarning, "WideOpenWarning", "%s", text);
 }

@@ -14,7 +14,9 @@
 typedef struct wo_ofx_instance {
     atomic_bool complaining;
     atomic_uint_least64_t warning;   /* hash of the text beside the node, 0 = there is none */
-    atomic_uint_least64_t popped_up; /* a bit for each kind of warning, by the hash of its key */
+    atomic_uint_least64_t kinds;     /* that it tells of, a bit for each, by the hash of its key */
+    atomic_uint_least64_t place;     /* hash of the window that it is from */
+    atomic_uint_least64_t popped_up; /* kinds that were told so */
     atomic_bool progressing;
 } wo_ofx_instance;
 
@@ -64,10 +66,10 @@ WO_NODISCARD wo_status wo_ofx_action_read(wo_ofx_action *action);
    away after a success. done says that the action has done what the user wants to see. */
 OfxStatus wo_ofx_action_end(wo_ofx_action *action, wo_status status, bool done);
 
-/* Shows the warnings of a render to the user, after wo_ofx_action_end: beside the node, where they
-   stay until the whole picture is rendered without any; in hosts that cannot do that in a window,
-   once for each kind. */
-void wo_ofx_warn(const wo_ofx_action *action, const wo_report *report, bool whole);
+/* Shows the warnings of the render of a window to the user, after wo_ofx_action_end: beside the
+   node, where they stay until that window, or the whole picture, is rendered without any, and are
+   not told again for every tile; in hosts that cannot do that in a window, once for each kind. */
+void wo_ofx_warn(const wo_ofx_action *action, const wo_report *report, wo_rect window);
 
 /* Whether the host says that something is attached to a clip. */
 bool wo_ofx_clip_connected(const wo_ofx_action *action, size_t clip);

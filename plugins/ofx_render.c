@@ -298,9 +298,8 @@ OfxStatus wo_ofx_render(const wo_ofx_plugin *plugin, OfxImageEffectHandle handle
     for (size_t i = 0; i < action.effect->clip_count; i++)
         wo_ofx_close(&action, &j.inputs[i]);
     wo_ofx_close(&action, &j.output);
-    const bool whole = wo_rect_contains(j.window, action.geometry.extent);
     const OfxStatus answer = wo_ofx_action_end(&action, status, true);
     if (status == WO_OK && report_mode(&action) == kWideOpenReportNone)
-        wo_ofx_warn(&action, &j.report, whole);
+        wo_ofx_warn(&action, &j.report, j.window);
     return answer;
 }

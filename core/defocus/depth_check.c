@@ -40,7 +40,7 @@ typedef struct facts {
 typedef struct check_job {
     const wo_sheet_source *source;
     wo_rect window; /* has depth */
-    bool may_be_sky;
+    bool may_be_sky, part;
     bool shown;              /* only pixels that show something */
     float nearest, farthest; /* samples read as NEAREST and FARTHEST, or the other way round */
     facts *workers;
@@ -238,10 +238,13 @@ static kind kind_of(const check_job *job, const facts *f)
     if (f->pixels < PIXELS_LEAST)
         return SANE;
     if (reading->mode == WO_DEPTH_NORMALISED)
-        return kind_of_normalised(f);
-    if ((double)f->negative > MANY * known)
+        return job->part ? SANE : kind_of_normalised(f);
+    /* Round what is seen against the sky a filter may leave more noise than that. */
+    if (job->part ? (double)f->negative > ALL * known && known > 0.5 * (double)f->pixels
+                  : (double)f->negative > MANY * known)
         return (double)f->negative > (1 - MANY) * known ? NEGATIVE : BOTH_SIGNS;
-    if (f->zero == f->pixels && !job->may_be_sky)
+    const bool may_be_sky = job->may_be_sky || job->part;
+    if (f->zero == f->pixels && !may_be_sky)
         return ZERO;
     if (reading->mode == WO_DEPTH_INVERSE) {
         if ((double)f->huge > (1 - ALL) * (double)f->pixels)
@@ -249,7 +252,7 @@ static kind kind_of(const check_job *job, const facts *f)
     } else if (f->positive > 0 && f->above_one == 0 && reading->scale >= 1) {
         if (f->between == 0 && has_levels(job, 1))
             return STEPPED;
-        if (f->high > 0.995 && f->low < 0.02)
+        if (f->high > 0.995 && f->low > 0 && f->low < 0.02)
             return UNIT_RANGE;
     }
     if (f->small >= PIXELS_LEAST && f->fractional == 0 && has_levels(job, WHOLE_BELOW))
@@ -257,9 +260,9 @@ static kind kind_of(const check_job *job, const facts *f)
     const bool inverse = reading->mode == WO_DEPTH_INVERSE;
     const double far = (double)(inverse ? f->near : f->far);
     const double near = (double)(inverse ? f->far : f->near);
-    if (positive > 0 && far >= ALL * positive && !job->may_be_sky)
+    if (positive > 0 && far >= ALL * positive && !may_be_sky)
         return TOO_FAR;
-    if (positive > 0 && near >= ALL * positive)
+    if (positive > 0 && near >= ALL * positive && !job->part)
         return TOO_NEAR;
     return SANE;
 }
@@ -370,14 +373,16 @@ static void check_size(const wo_sheet_source *source, wo_rect window, wo_rect in
 }
 
 wo_status wo_depth_check(const wo_context *context, const wo_sheet_source *source, wo_rect window,
-                         const char *name, bool may_be_sky, wo_report *report, wo_error *error)
+                         const wo_depth_clip *clip, wo_report *report, wo_error *error)
 {
     if (!source->depth || !source->depth->data)
         return WO_OK;
     check_job job = {.source = source,
-                     .may_be_sky = may_be_sky,
+                     .may_be_sky = clip->may_be_sky,
+                     .part = clip->part,
                      .window = wo_rect_intersect(window, source->depth->bounds)};
-    check_size(source, window, job.window, name, report);
+    if (!clip->part)
+        check_size(source, window, job.window, clip->name, report);
     if (wo_rect_empty(job.window))
         return WO_OK;
     if (!(job.workers = wo_new(context, error, wo_workers(context), sizeof *job.workers)))
@@ -387,7 +392,7 @@ wo_status wo_depth_check(const wo_context *context, const wo_sheet_source *sourc
     if (kind_of(&job, &f) != SANE) {
         job.shown = true;
         f = count(context, &job);
-        warn(&job, &f, name, report);
+        warn(&job, &f, clip->name, report);
     }
     wo_delete(context, job.workers);
     return WO_OK;

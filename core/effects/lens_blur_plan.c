@@ -235,20 +235,21 @@ static double reach_of(const wo_plan *plan, const wo_sheet sheets[SHEETS])
     return fmin(reach, plan->setup.reach);
 }
 
-/* Depth that cannot be what was meant. Parts of a picture tell nothing: sky is a part, too. */
+/* Depth that cannot be what was meant. */
 static wo_status check_depth(wo_plan *plan, const wo_plan_args *args, wo_error *error)
 {
     const wo_lens_blur_setup *setup = &plan->setup;
     const wo_rect whole = wo_rect_intersect(plan->geometry.format, plan->geometry.extent);
-    if (wo_rect_empty(whole) || !wo_rect_contains(plan->window, whole))
-        return WO_OK;
     for (int i = 0; i <= BACKGROUND; i++) {
         const wo_sheet_source source = wo_lens_blur_layer(plan, args, i);
-        const int clip = i == BACKGROUND ? WO_CLIP_BACKGROUND_DEPTH : 2 * i + 1;
+        const int index = i == BACKGROUND ? WO_CLIP_BACKGROUND_DEPTH : 2 * i + 1;
+        const wo_depth_clip clip = {.name = wo_lens_blur_clips[index].name,
+                                    .may_be_sky = i > 0,
+                                    .part = !wo_rect_contains(plan->window, whole)};
         const bool used = i == BACKGROUND ? setup->background_used : setup->layer_used[i];
         if (used && source.colour->data)
-            WO_TRY(wo_depth_check(&plan->context, &source, plan->window,
-                                  wo_lens_blur_clips[clip].name, i > 0, &plan->report, error));
+            WO_TRY(
+                wo_depth_check(&plan->context, &source, plan->window, &clip, &plan->report, error));
     }
     return WO_OK;
 }

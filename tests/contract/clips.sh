@@ -90,6 +90,8 @@ blur 0 $scene negative.exr:depth none.exr --explain
 says 'warning: Depth: 100 % of the depth is negative'
 shows 'warning     Depth: 100 % of the depth is negative'
 absent none.exr
+blur 0 $scene negative.exr:depth tiles.exr --tile 48
+says 'warning: Depth: .* of the depth is negative'
 change $scene millions.exr times=1e6
 blur 0 $scene millions.exr:depth far.exr
 says 'warning: Depth: all depth .* farther than 100 km'

@@ -418,6 +418,20 @@ static void a_warning_stays_while_there_is_cause(void **state)
     assert_true(mock.persistent_set); /* a part of the picture clears nobody */
     render(effect, full, kOfxStatOK);
     assert_false(mock.persistent_set);
+
+    /* A host that never renders the whole at once: tiles give and take, and say it once. */
+    const int told = mock.persistent;
+    mock_set_number(effect, "trouble", PROBE_TROUBLE_WARN, 0, 0);
+    for (int tile = 0; tile < 4; tile++) {
+        mock_set_text(effect, "note", tile % 2 ? "odd" : "even");
+        render(effect, (wo_rect){tile * 3, 0, tile * 3 + 3, 7}, kOfxStatOK);
+    }
+    assert_int_equal(mock.persistent, told + 1);
+    mock_set_number(effect, "trouble", PROBE_TROUBLE_NONE, 0, 0);
+    render(effect, (wo_rect){6, 0, 9, 7}, kOfxStatOK);
+    assert_true(mock.persistent_set);
+    render(effect, (wo_rect){0, 0, 3, 7}, kOfxStatOK);
+    assert_false(mock.persistent_set);
     mock_destroy(probe, effect);
 }
 

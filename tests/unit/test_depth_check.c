@@ -203,7 +203,10 @@ static const tried cases[] = {
     {METRES, AS(NORMALISED, 1), "depth-not-normalised", "depthMode=distance"},
 };
 
-static wo_report check(way how, wo_depth_reading reading, bool may_be_sky)
+static const wo_depth_clip first = {"Depth", false, false}, other = {"Depth2", true, false},
+                           tile = {"Depth", false, true};
+
+static wo_report check(way how, wo_depth_reading reading, const wo_depth_clip *clip)
 {
     wo_image colour = picture_make(frame, 4), depth = picture_make(frame, 1);
     wo_report report = {.pixels = 0};
@@ -213,8 +216,7 @@ static wo_report check(way how, wo_depth_reading reading, bool may_be_sky)
         for (int32_t x = 0; x < WIDTH; x++)
             *wo_image_at(&depth, x, y) = (float)written(how, x, y);
     const wo_sheet_source source = {.colour = &colour, .depth = &depth, .reading = reading};
-    const wo_status status =
-        wo_depth_check(&plain, &source, frame, "Depth", may_be_sky, &report, &error);
+    const wo_status status = wo_depth_check(&plain, &source, frame, clip, &report, &error);
     picture_free(&colour);
     picture_free(&depth);
     assert_int_equal(status, WO_OK);
@@ -226,7 +228,7 @@ static void what_programs_write_is_told_by_its_numbers(void **state)
     (void)state;
     for (size_t i = 0; i < WO_COUNT(cases); i++) {
         const tried *c = &cases[i];
-        const wo_report report = check(c->how, c->reading, false);
+        const wo_report report = check(c->how, c->reading, &first);
         const char *const key = report.warning_count ? report.warnings[0].key : "nothing";
         if (strcmp(key, c->key ? c->key : "nothing") != 0 ||
             (c->hint && !strstr(report.warnings[0].text, c->hint)) || report.warning_count > 1)
@@ -235,7 +237,7 @@ static void what_programs_write_is_told_by_its_numbers(void **state)
     }
     for (size_t i = 0; i < WO_COUNT(cases); i++)
         if (cases[i].key) /* what is told is told in full */
-            assert_true(strlen(check(cases[i].how, cases[i].reading, false).warnings[0].text) <
+            assert_true(strlen(check(cases[i].how, cases[i].reading, &first).warnings[0].text) <
                         WO_WARNING_SIZE - 40);
 }
 
@@ -243,9 +245,27 @@ static void a_layer_may_be_sky_alone(void **state)
 {
     (void)state;
     const wo_depth_reading metres = AS(DISTANCE, 1);
-    assert_int_equal(check(NOTHING, metres, true).warning_count, 0);
-    assert_int_equal(check(DISTANT, metres, true).warning_count, 0);
-    assert_int_equal(check(CAMERA_SPACE, metres, true).warning_count, 1);
+    assert_int_equal(check(NOTHING, metres, &other).warning_count, 0);
+    assert_int_equal(check(DISTANT, metres, &other).warning_count, 0);
+    assert_int_equal(check(CAMERA_SPACE, metres, &other).warning_count, 1);
+}
+
+/* Of a part less is told: it may be sky, the rest of the picture may have what it lacks. */
+static void a_part_is_judged_by_what_no_part_has(void **state)
+{
+    (void)state;
+    static const struct {
+        way how;
+        bool told;
+    } parts[] = {{METRES, false},  {RINGING, false}, {NOTHING, false},   {SKY, false},
+                 {DISTANT, false}, {TINY, false},    {NORMAL, false},    {CAMERA_SPACE, true},
+                 {UNIT, true},     {BYTES, true},    {SENSOR, true},     {MACRO, false},
+                 {CARDS, false},   {INVERSE, false}, {LANDSCAPE, false}, {METRES_NAN, false}};
+    const wo_depth_reading metres = AS(DISTANCE, 1), normalised = AS(NORMALISED, 1);
+    for (size_t i = 0; i < WO_COUNT(parts); i++)
+        if ((check(parts[i].how, metres, &tile).warning_count > 0) != parts[i].told)
+            fail_msg("part %zu", i);
+    assert_int_equal(check(METRES, normalised, &tile).warning_count, 0);
 }
 
 /* Depth of pixels that show nothing is nobody's. */
@@ -262,10 +282,12 @@ static void empty_pixels_do_not_count(void **state)
             wo_image_at(&colour, x, y)[3] = shown;
             wo_image_at(&depth, x, y)[1] = shown ? (float)written(METRES, x, y) : -1;
         }
-    assert_int_equal(wo_depth_check(&plain, &source, frame, "Depth", false, &report, NULL), WO_OK);
+    assert_int_equal(wo_depth_check(&plain, &source, frame, &first, &report, NULL), WO_OK);
     assert_int_equal(report.warning_count, 0);
     source.depth_channel = 3; /* the last one there is: all 0 */
-    assert_int_equal(wo_depth_check(&plain, &source, frame, "Depth4", false, &report, NULL), WO_OK);
+    assert_int_equal(
+        wo_depth_check(&plain, &source, frame, &(wo_depth_clip){.name = "Depth4"}, &report, NULL),
+        WO_OK);
     assert_int_equal(report.warning_count, 1);
     assert_string_equal(report.warnings[0].key, "depth-zero");
     assert_non_null(strstr(report.warnings[0].text, "Depth4: "));
@@ -292,8 +314,7 @@ static void depth_that_ends_early_is_told(void **state)
         picture_fill(&depth, (const float[1]){3});
         const wo_sheet_source source = {
             .colour = &colour, .depth = &depth, .reading = AS(DISTANCE, 1)};
-        assert_int_equal(wo_depth_check(&plain, &source, frame, "Depth", false, &report, NULL),
-                         WO_OK);
+        assert_int_equal(wo_depth_check(&plain, &source, frame, &first, &report, NULL), WO_OK);
         assert_int_equal(report.warning_count, sizes[i].told);
         if (sizes[i].told)
             assert_string_equal(report.warnings[0].key, "depth-size");
@@ -308,15 +329,14 @@ static void depth_that_ends_early_is_told(void **state)
         for (int32_t x = 5; x < 25; x++)
             wo_image_at(&colour, x, y)[3] = 1;
     const wo_sheet_source source = {.colour = &colour, .depth = &depth, .reading = AS(DISTANCE, 1)};
-    assert_int_equal(wo_depth_check(&plain, &source, frame, "Depth2", true, &report, NULL), WO_OK);
+    assert_int_equal(wo_depth_check(&plain, &source, frame, &other, &report, NULL), WO_OK);
     assert_int_equal(report.warning_count, 0);
     picture_free(&depth);
     picture_free(&colour);
 }
 
-/* Through the effect: in report and plan, also where nothing is blurred; a part of the picture,
-   which may be sky, says nothing. */
-static void the_effect_warns_of_whole_pictures(void **state)
+/* Through the effect: in report and plan, also where nothing is blurred; less of a part. */
+static void the_effect_warns(void **state)
 {
     (void)state;
     wo_error error = {0};
@@ -326,21 +346,18 @@ static void the_effect_warns_of_whole_pictures(void **state)
     picture_fill(scene_clip(&s, WO_CLIP_SOURCE, 4), (const float[4]){0.5f, 0.5f, 0.5f, 1});
     wo_image *const depth = scene_clip(&s, WO_CLIP_DEPTH, 1);
     s.params.samples = 1;
-    for (int sharp = 0; sharp < 2; sharp++) {
-        wo_report report = {.pixels = 0};
+    s.params.focus_distance = 0; /* infinity: all of it is sharp */
+    for (int zero = 0; zero < 2; zero++) {
+        wo_report report = {.pixels = 0}, part = {.pixels = 0};
         for (int32_t y = 0; y < HEIGHT; y++)
             for (int32_t x = 0; x < WIDTH; x++)
-                *wo_image_at(depth, x, y) = (float)written(sharp ? NOTHING : CAMERA_SPACE, x, y);
-        s.params.focus_distance = 0; /* infinity: all of it is sharp */
+                *wo_image_at(depth, x, y) = (float)written(zero ? NOTHING : CAMERA_SPACE, x, y);
         wo_image out = scene_render(&s, &report);
         assert_int_equal(report.warning_count, 1);
-        assert_string_equal(report.warnings[0].key, sharp ? "depth-zero" : "depth-negative");
-        const wo_report part = {.pixels = 0};
-        report = part;
+        assert_string_equal(report.warnings[0].key, zero ? "depth-zero" : "depth-negative");
         assert_int_equal(
-            scene_run(&s, &plain, (wo_rect){0, 0, WIDTH, HEIGHT / 2}, &out, &report, &error),
-            WO_OK);
-        assert_int_equal(report.warning_count, 0);
+            scene_run(&s, &plain, (wo_rect){0, 0, WIDTH, HEIGHT / 2}, &out, &part, &error), WO_OK);
+        assert_int_equal(part.warning_count, zero ? 0 : 1);
         picture_free(&out);
 
         const wo_plan_args args = scene_args(&s, frame);
@@ -359,9 +376,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_programs_write_is_told_by_its_numbers),
         cmocka_unit_test(a_layer_may_be_sky_alone),
+        cmocka_unit_test(a_part_is_judged_by_what_no_part_has),
         cmocka_unit_test(empty_pixels_do_not_count),
         cmocka_unit_test(depth_that_ends_early_is_told),
-        cmocka_unit_test(the_effect_warns_of_whole_pictures),
+        cmocka_unit_test(the_effect_warns),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
