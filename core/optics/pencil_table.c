@@ -201,7 +201,7 @@ static void table_iris_rays(const void *self, double x, double y, int line, cons
 {
     const wo_table_pencils *p = self;
     field_point at = field_at(p, x, y);
-    at.h = fmin(at.h, p->field_lit);
+    at.h = fmin(at.h, p->field);
     for (int i = 0; i < count; i += WO_PENCIL_PIECE) {
         const int n = count - i < WO_PENCIL_PIECE ? count - i : WO_PENCIL_PIECE;
         const wo_table_rays part = {out->ax + i, out->ay + i,     out->bx + i,
