@@ -83,9 +83,15 @@ static wo_status check_png(const char *path, int fd, uint64_t size, wo_error *er
     return cut_off(path, error);
 }
 
+/* Does the mark begin a frame's header: SOF0 to SOF15 but for DHT, JPG and DAC? */
+static bool is_jpeg_frame(unsigned char mark)
+{
+    return mark >= 0xc0 && mark <= 0xcf && mark != 0xc4 && mark != 0xc8 && mark != 0xcc;
+}
+
 /* Is there a mark that ends the picture, behind the first scan's header? Inside a scan 0xff is
-   always followed by 0 or a mark. */
-static bool jpeg_ends(const unsigned char *bytes, size_t size)
+   always followed by 0 or a mark. *samples is what the frame's header says. */
+static bool jpeg_ends(const unsigned char *bytes, size_t size, uint64_t *samples)
 {
     size_t at = 2;
     while (at + 4 <= size) {
@@ -96,6 +102,9 @@ static bool jpeg_ends(const unsigned char *bytes, size_t size)
             at++;
             continue;
         }
+        if (is_jpeg_frame(mark) && at + 10 <= size)
+            *samples = (uint64_t)number(bytes + at + 5, 2, false) *
+                       number(bytes + at + 7, 2, false) * bytes[at + 9];
         at += 2 + number(bytes + at + 2, 2, false);
         if (mark == 0xda)
             break;
@@ -106,21 +115,82 @@ static bool jpeg_ends(const unsigned char *bytes, size_t size)
     return false;
 }
 
-static wo_status check_jpeg(const char *path, int fd, uint64_t size, wo_error *error)
+static wo_status promise(const char *path, uint64_t samples, uint64_t *promised, wo_error *error)
+{
+    *promised = samples * sizeof(float);
+    if (samples > WO_IO_MAX_BYTES / sizeof(float))
+        return wo_fail(error, WO_ERR_RANGE, "%s: pixels need more than %llu GiB of memory",
+                       wo_io_shown(path), (unsigned long long)(WO_IO_MAX_BYTES >> 30));
+    return WO_OK;
+}
+
+/* A progressive JPEG is unpacked while its head is read: a short one of 65500 x 65500 takes seven
+   gigabytes. No scan packs 4096 samples into a byte. */
+static wo_status check_jpeg(const char *path, int fd, uint64_t size, uint64_t *promised,
+                            wo_error *error)
 {
     if (size > (uint64_t)1 << 31)
         return wo_fail(error, WO_ERR_FORMAT, "%s: too large for a JPEG", wo_io_shown(path));
     unsigned char *const bytes = malloc((size_t)size);
     if (!bytes)
         return wo_fail(error, WO_ERR_NOMEM, "no memory for %s", wo_io_shown(path));
-    const bool whole = read_at(fd, bytes, (size_t)size, 0) && jpeg_ends(bytes, (size_t)size);
+    uint64_t samples = 0;
+    const bool whole =
+        read_at(fd, bytes, (size_t)size, 0) && jpeg_ends(bytes, (size_t)size, &samples);
     free(bytes);
+    WO_TRY(promise(path, samples, promised, error));
+    if (whole && samples / 4096 > size)
+        return wo_fail(error, WO_ERR_FORMAT, "%s: the file is too short for its picture",
+                       wo_io_shown(path));
     return whole ? WO_OK : cut_off(path, error);
 }
 
-wo_status wo_io_check_whole(const char *path, int fd, const wo_io_format *format, wo_error *error)
+/* WebP and JPEG 2000 are unpacked while their heads are read, too; but a few bytes may be a large
+   picture of one colour. */
+static uint64_t webp_samples(int fd)
+{
+    unsigned char head[30];
+    if (!read_at(fd, head, sizeof head, 0))
+        return 0;
+    uint64_t width = number(head + 26, 2, true) & 0x3fff; /* VP8, lossy */
+    uint64_t height = number(head + 28, 2, true) & 0x3fff;
+    if (!memcmp(head + 12, "VP8X", 4)) {
+        width = 1 + (uint64_t)number(head + 24, 3, true);
+        height = 1 + (uint64_t)number(head + 27, 3, true);
+    } else if (!memcmp(head + 12, "VP8L", 4)) {
+        const uint32_t both = number(head + 21, 4, true);
+        width = 1 + (both & 0x3fff);
+        height = 1 + (both >> 14 & 0x3fff);
+    }
+    return width * height * 4;
+}
+
+static uint64_t jp2_samples(int fd)
+{
+    unsigned char head[512] = {0};
+    const ssize_t got = pread(fd, head, sizeof head, 0);
+    for (ssize_t i = 0; i + 42 < got; i++) {
+        if (!memcmp(head + i, "ihdr", 4)) /* the box of JP2 */
+            return (uint64_t)number(head + i + 4, 4, false) * number(head + i + 8, 4, false) *
+                   number(head + i + 12, 2, false);
+        if (!memcmp(head + i, "\xff\x4f\xff\x51", 4)) { /* the start of a bare codestream */
+            const uint64_t right = number(head + i + 8, 4, false);
+            const uint64_t bottom = number(head + i + 12, 4, false);
+            const uint64_t left = number(head + i + 16, 4, false);
+            const uint64_t top = number(head + i + 20, 4, false);
+            return right > left && bottom > top
+                       ? (right - left) * (bottom - top) * number(head + i + 40, 2, false)
+                       : 0;
+        }
+    }
+    return 0;
+}
+
+wo_status wo_io_check_whole(const char *path, int fd, const wo_io_format *format,
+                            uint64_t *promised, wo_error *error)
 {
     struct stat about;
+    *promised = 0;
     if (fstat(fd, &about))
         return wo_fail(error, WO_ERR_IO, "cannot read %s", wo_io_shown(path));
     if (!strcmp(format->library_name, "dpx"))
@@ -128,6 +198,10 @@ wo_status wo_io_check_whole(const char *path, int fd, const wo_io_format *format
     if (!strcmp(format->library_name, "png"))
         return check_png(path, fd, (uint64_t)about.st_size, error);
     if (!strcmp(format->library_name, "jpeg"))
-        return check_jpeg(path, fd, (uint64_t)about.st_size, error);
+        return check_jpeg(path, fd, (uint64_t)about.st_size, promised, error);
+    if (!strcmp(format->library_name, "webp"))
+        return promise(path, webp_samples(fd), promised, error);
+    if (!strcmp(format->library_name, "jpeg2000"))
+        return promise(path, jp2_samples(fd), promised, error);
     return WO_OK;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
 #define _POSIX_C_SOURCE 200809L
-#include "image_io_private.h"
+#include "io_child_private.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -91,6 +91,7 @@ void wo_io_part_clear(wo_io_part *part)
         free(part->channel_names[i]);
     free(part->channel_names);
     free(part->pixels);
+    free(part->fault);
     free(part->colour_space);
     for (size_t i = 0; i < part->attribute_count; i++) {
         free(part->attributes[i].name);
@@ -200,6 +201,8 @@ wo_status wo_io_part_set(wo_io_part *part, const wo_io_attribute *attribute, wo_
 {
     if (!attribute->name || !attribute->name[0])
         return wo_fail(error, WO_ERR_ARGUMENT, "an attribute needs a name");
+    if (part->attribute_count >= WO_IO_MAX_ATTRIBUTES && !wo_io_part_find(part, attribute->name))
+        return wo_fail(error, WO_ERR_RANGE, "more than %d attributes", WO_IO_MAX_ATTRIBUTES);
     if (attribute->type == WO_IO_TEXT && !attribute->text)
         return wo_fail(error, WO_ERR_ARGUMENT, "attribute %s has no text", attribute->name);
     wo_io_attribute made = {.type = attribute->type, .number = attribute->number};
@@ -337,11 +340,14 @@ static wo_status open_file(const char *path, int *fd, wo_error *error)
 static wo_status read_other(const char *path, int fd, const wo_io_format *format, bool headers_only,
                             wo_io_file **file, wo_error *error)
 {
-    WO_TRY(wo_io_check_whole(path, fd, format, error));
-    return wo_io_oiio_read(path, format, headers_only, file, error);
+    uint64_t promised;
+    WO_TRY(wo_io_check_whole(path, fd, format, &promised, error));
+    return wo_io_read_apart(path, fd, format, headers_only, promised, file, error);
 }
 
-wo_status wo_io_read(const char *path, bool headers_only, wo_io_file **file, wo_error *error)
+/* Reads a file, or of an EXR a view of it when image is not NULL. */
+static wo_status read_any(const char *path, bool headers_only, const char *channels,
+                          wo_io_file **file, wo_image *image, size_t *part, wo_error *error)
 {
     static const unsigned char exr_mark[4] = {0x76, 0x2f, 0x31, 0x01};
     unsigned char mark[4] = {0};
@@ -356,7 +362,8 @@ wo_status wo_io_read(const char *path, bool headers_only, wo_io_file **file, wo_
     const wo_io_format *const format = wo_io_format_of(path);
     const ssize_t got = pread(fd, mark, sizeof mark, 0);
     if (got == (ssize_t)sizeof mark && !memcmp(mark, exr_mark, sizeof mark))
-        status = wo_io_exr_read(path, fd, headers_only, file, error);
+        status = image ? wo_io_exr_read_view(path, fd, channels, file, image, part, error)
+                       : wo_io_exr_read(path, fd, headers_only, file, error);
     else if (got < 0)
         status = wo_fail(error, WO_ERR_IO, "cannot read %s", wo_io_shown(path));
     else if (format)
@@ -371,4 +378,31 @@ wo_status wo_io_read(const char *path, bool headers_only, wo_io_file **file, wo_
     if (status != WO_OK)
         wo_io_file_destroy(file);
     return status;
+}
+
+wo_status wo_io_read(const char *path, bool headers_only, wo_io_file **file, wo_error *error)
+{
+    return read_any(path, headers_only, NULL, file, NULL, NULL, error);
+}
+
+wo_status wo_io_read_view(const char *path, const char *channels, wo_io_file **file,
+                          wo_image *image, size_t *part, wo_error *error)
+{
+    const wo_io_part *chosen = NULL;
+    *image = (wo_image){0};
+    *part = 0;
+    WO_TRY(read_any(path, false, channels, file, image, part, error));
+    if (image->data)
+        return WO_OK;
+    const wo_status status = wo_io_select(*file, channels, image, &chosen, error);
+    if (status != WO_OK) {
+        wo_io_file_destroy(file);
+        return status;
+    }
+    *part = (size_t)(chosen - (*file)->parts);
+    for (size_t i = 0; i < (*file)->part_count; i++) {
+        free((*file)->parts[i].pixels);
+        (*file)->parts[i].pixels = NULL;
+    }
+    return WO_OK;
 }

@@ -39,7 +39,8 @@ typedef struct wo_io_part {
     double pixel_aspect;
     int channels;
     char **channel_names; /* [channels] "R", "diffuse.R", "Z"; R, G, B, A come in this order */
-    float *pixels;        /* NULL when only the header was read */
+    float *pixels;        /* NULL when only the header was read, or fault says something */
+    char *fault;          /* why the pixels could not be read, NULL when nothing is wrong */
     int bits;             /* of the file's samples, the widest channel: 8, 10, 12, 16, 32 */
     bool is_float;        /* half and float */
     char *colour_space;   /* what the file says of itself, "" when it says nothing */
@@ -67,14 +68,33 @@ bool wo_io_same_format(const char *path, const char *other);
    wo_io_file_destroy; NULL after a failure. EXR is known by its first bytes, other formats by their
    extension: png tif tiff jpg jpeg dpx cin hdr tga bmp ppm pgm pnm webp jp2.
    Truncated or hostile files give WO_ERR_FORMAT, missing ones WO_ERR_IO, pictures beyond
-   WO_MAX_SIDE or WO_IO_MAX_BYTES WO_ERR_RANGE before anything of that size is allocated.
-   EXR: tiled parts give their full resolution. Deep parts are flattened: R, G, B, A (of every
-   layer) are composited front to back by Z with A, everything else is that of the nearest sample,
-   and the part carries "wideopen:flattenedDeep" = 1; ZBack is taken for a point. Channels stored at
-   reduced resolution give WO_ERR_UNSUPPORTED. Unsigned integers are exact up to 2^24. */
+   WO_MAX_SIDE or WO_IO_MAX_BYTES WO_ERR_RANGE before anything of that size is allocated. Where only
+   some of several parts can be read, the others have a fault instead of pixels. Pixels are never
+   there by halves.
+   Formats other than EXR, and B44 and DWA of EXR, are decoded by the program wideopen-read, which
+   must lie beside the running program. It is started with the first such file, with stdin, stdout
+   and stderr on /dev/null and in a process group of its own, and stays for the next; it ends when
+   this program ends, or by wo_io_end_helpers, and is a child process (one for every thread that
+   reads at the same time) to programs that wait for theirs. Each file is decoded in a fork of it,
+   so a damaged file cannot do more than end that: WO_ERR_FORMAT, "the PNG reader crashed". The
+   fork may take 256 MiB + 3 times the pixels + 2 times the file of memory, 10 s + 1 s for each 16
+   MiB of pixels of processor time, four times that and 30 s by the clock without progress, and
+   write no file; under sanitizers one allocation is limited to 4 GiB instead. EXR: tiled parts give
+   their full resolution. Deep parts are flattened: R, G, B, A (of every layer) are composited front
+   to back by Z with A, everything else is that of the nearest sample, and the part carries
+   "wideopen:flattenedDeep" = 1; ZBack is taken for a point. Channels stored at reduced resolution
+   are interpolated linearly. Luminance and chroma (Y, RY, BY of one layer, at any resolution)
+   become R, G, B of the chromaticities that the file states. A missing or damaged table of lines is
+   made anew from the lines. Unsigned integers are exact up to 2^24. */
 WO_NODISCARD wo_status wo_io_read(const char *path, bool headers_only, wo_io_file **file,
                                   wo_error *error);
 void wo_io_file_destroy(wo_io_file **file);
+/* How many files one such fork reads, 1 at first: a file that spoils its memory then spoils no
+   other. More save some milliseconds a file; a file on which a used fork ends is tried again in a
+   fresh one. Any thread. */
+void wo_io_files_per_process(unsigned files);
+/* Ends the processes that wait for further files; the next file starts one anew. */
+void wo_io_end_helpers(void);
 
 /* How samples are stored. */
 typedef enum wo_io_depth {
@@ -122,7 +142,8 @@ WO_NODISCARD wo_status wo_io_part_set(wo_io_part *part, const wo_io_attribute *a
 /* NULL when the part has no such attribute. */
 const wo_io_attribute *wo_io_part_find(const wo_io_part *part, const char *name);
 
-/* Picks a view out of a file by the command line's words: "" = RGBA/RGB/Y/Z of the first part; "Z",
+/* Picks a view out of a file by the command line's words: "" = RGBA/RGB/Y/Z of the first part (Y
+   with A is a grey RGBA); "Z",
    "R,G,B", "diffuse" (a layer: diffuse.R ...), "partname" or "partname:Z". The result is a newly
    malloc-ed interleaved buffer of 1, 3 or 4 components in image->data, freed by the caller with
    free(); part tells which part it came from. Unknown names list what the file has.
@@ -133,12 +154,19 @@ const wo_io_attribute *wo_io_part_find(const wo_io_part *part, const char *name)
 WO_NODISCARD wo_status wo_io_select(const wo_io_file *file, const char *channels, wo_image *image,
                                     const wo_io_part **part, wo_error *error);
 
+/* Reads a file and picks a view at once: *file holds headers only, *image what wo_io_select gives,
+   of part *part. Of an EXR only the channels that are wanted are kept while it is read, and a fault
+   of another part does not matter. */
+WO_NODISCARD wo_status wo_io_read_view(const char *path, const char *channels, wo_io_file **file,
+                                       wo_image *image, size_t *part, wo_error *error);
+
 /* Colour times alpha, and colour over alpha (left alone where alpha is 0); only of 4 components. */
 void wo_io_premultiply(wo_image *image);
 void wo_io_unpremultiply(wo_image *image);
 
 /* "shot.%04d.exr" or "shot.####.exr" at frame, or a copy when there is no such mark. A mark is %d,
-   %Nd or %0Nd (N 1..9), or two or more #; every mark of the path is replaced. */
+   %Nd or %0Nd (N 1..9), or two or more #; every mark of the path is replaced, but none in the
+   names of leading folders that are there, and none when a file of just this name is there. */
 WO_NODISCARD wo_status wo_io_frame_path(const char *pattern, int frame, char *buffer, size_t size,
                                         wo_error *error);
 bool wo_io_is_sequence(const char *pattern);

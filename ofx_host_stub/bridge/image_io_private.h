@@ -13,8 +13,9 @@ extern "C" {
 
 /* What the files of image_io share; nobody else includes this. */
 
-#define WO_IO_MAX_CHANNELS 4096
-#define WO_IO_MAX_PARTS    4096
+#define WO_IO_MAX_CHANNELS   4096
+#define WO_IO_MAX_PARTS      4096
+#define WO_IO_MAX_ATTRIBUTES 4096 /* of a part */
 
 /* End of a path that fits into an error text. */
 const char *wo_io_shown(const char *path);
@@ -50,6 +51,21 @@ int wo_io_component(const char *channel);
 /* Length of the layer's name before the last '.', 0 when there is none. */
 size_t wo_io_layer_length(const char *channel);
 
+/* What words choose of a file. */
+#define WO_IO_MOST_CHOSEN 4
+typedef struct wo_io_choice {
+    const wo_io_part *part;
+    int channels[WO_IO_MOST_CHOSEN]; /* one may stand several times */
+    int count;                       /* 0 = nothing found */
+} wo_io_choice;
+
+/* Headers are enough; what cannot be an image is refused in words. */
+WO_NODISCARD wo_status wo_io_choose(const wo_io_file *file, const char *channels,
+                                    wo_io_choice *chosen, wo_error *error);
+/* An image of the part's pixels as they are chosen; its data is malloc-ed. */
+WO_NODISCARD wo_status wo_io_copy_choice(const wo_io_choice *chosen, wo_image *image,
+                                         wo_error *error);
+
 /* Formats but EXR. */
 typedef struct wo_io_format {
     const char *extension;
@@ -65,25 +81,26 @@ const wo_io_format *wo_io_format_of(const char *path);
 /* Does the extension ask for EXR, which wo_io_format_of does not know? */
 bool wo_io_is_exr(const char *path);
 
-/* Refuses cut files that the library would take for whole ones. */
+/* Refuses cut files that the library would take for whole ones, and heads that claim far more than
+   the file can hold. *promised is what the head says of the pixels, as bytes of floats; 0 where the
+   format is not looked into. */
 WO_NODISCARD wo_status wo_io_check_whole(const char *path, int fd, const wo_io_format *format,
-                                         wo_error *error);
+                                         uint64_t *promised, wo_error *error);
 
 /* io_exr_*.c. fd is open, positioned anywhere, and stays open; path is for texts and for the
    fallback below. Reading leaves a half-filled *file to the caller when it fails. */
 WO_NODISCARD wo_status wo_io_exr_read(const char *path, int fd, bool headers_only,
                                       wo_io_file **file, wo_error *error);
+/* Reads the headers, and of the pixels what the words choose, into *image. */
+WO_NODISCARD wo_status wo_io_exr_read_view(const char *path, int fd, const char *channels,
+                                           wo_io_file **file, wo_image *image, size_t *part,
+                                           wo_error *error);
 WO_NODISCARD wo_status wo_io_exr_write(const char *path, int fd, const wo_io_part *parts,
                                        size_t part_count, wo_io_depth depth, wo_error *error);
 
-/* io_oiio.cc, by way of io_late.c */
-WO_NODISCARD wo_status wo_io_oiio_read(const char *path, const wo_io_format *format,
-                                       bool headers_only, wo_io_file **file, wo_error *error);
+/* io_oiio_write.cc, by way of io_late.c */
 WO_NODISCARD wo_status wo_io_oiio_write(const char *path, int fd, const wo_io_format *format,
                                         const wo_io_part *part, wo_io_depth depth, wo_error *error);
-/* Fills the pixels of an EXR part whose header is read; for B44 and DWA. */
-WO_NODISCARD wo_status wo_io_oiio_exr_pixels(const char *path, int part_index, wo_io_part *part,
-                                             wo_error *error);
 
 #ifdef __cplusplus
 }

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 
 size_t wo_io_layer_length(const char *channel)
 {
@@ -40,14 +41,6 @@ int wo_io_component(const char *channel)
 
 /* Selection. */
 
-#define MOST_PICKED 4
-
-typedef struct choice {
-    const wo_io_part *part;
-    int channels[MOST_PICKED];
-    int count; /* 0 = nothing found */
-} choice;
-
 typedef int (*comparison)(const char *, const char *);
 
 static int find_channel(const wo_io_part *part, const char *name, size_t length, bool any_case)
@@ -76,20 +69,33 @@ static int count_words(const char *list)
     }
 }
 
-static choice pick_channels(const wo_io_part *part, const char *list, bool any_case)
+/* The channels of a list from its word number count on; false when they cannot be found. A name may
+   hold commas itself: the longest that is one wins, unless nothing fits behind it. */
+static bool pick_from(const wo_io_part *part, const char *list, bool any_case, wo_io_choice *found)
 {
-    choice found = {.part = part};
-    for (const char *at = list; found.count < MOST_PICKED; at++) {
-        const size_t length = strcspn(at, ",");
-        const int index = find_channel(part, at, length, any_case);
-        if (index < 0)
-            break;
-        found.channels[found.count++] = index;
-        at += length;
-        if (!*at)
-            return found;
+    if (found->count == WO_IO_MOST_CHOSEN)
+        return false;
+    for (size_t length = strlen(list);; length--) {
+        const bool last = list[length] == '\0';
+        if (!last && list[length] != ',' && length > 0)
+            continue;
+        const int index = length > 0 ? find_channel(part, list, length, any_case) : -1;
+        if (index >= 0) {
+            found->channels[found->count++] = index;
+            if (last || pick_from(part, list + length + 1, any_case, found))
+                return true;
+            found->count--;
+        }
+        if (length == 0)
+            return false;
     }
-    found.count = 0;
+}
+
+static wo_io_choice pick_channels(const wo_io_part *part, const char *list, bool any_case)
+{
+    wo_io_choice found = {.part = part};
+    if (!pick_from(part, list, any_case, &found))
+        found.count = 0;
     return found;
 }
 
@@ -115,11 +121,11 @@ static int in_layer_called(const wo_io_part *part, const char *layer, bool any_c
     return -1;
 }
 
-/* What a layer shows by itself: RGBA, RGB, XYZ, Y, Z, or its only channel. */
-static choice pick_layer(const wo_io_part *part, const char *layer, bool any_case)
+/* What a layer shows by itself: RGBA, RGB, XYZ, Y with A as RGBA, Y, Z, or its only channel. */
+static wo_io_choice pick_layer(const wo_io_part *part, const char *layer, bool any_case)
 {
-    choice found = {.part = part};
-    int component[MOST_PICKED] = {-1, -1, -1, -1}, members = 0, only = -1;
+    wo_io_choice found = {.part = part};
+    int component[WO_IO_MOST_CHOSEN] = {-1, -1, -1, -1}, members = 0, only = -1;
     for (int i = part->channels - 1; i >= 0; i--) {
         const char *const channel = part->channel_names[i];
         if (!in_layer(channel, layer, any_case))
@@ -141,6 +147,11 @@ static choice pick_layer(const wo_io_part *part, const char *layer, bool any_cas
         found.channels[1] = y;
         found.channels[2] = z;
         found.count = 3;
+    } else if (y >= 0 && component[3] >= 0) {
+        for (int i = 0; i < 3; i++)
+            found.channels[i] = y;
+        found.channels[3] = component[3];
+        found.count = 4;
     } else if (y >= 0 || z >= 0 || members == 1) {
         found.channels[0] = y >= 0 ? y : z >= 0 ? z : only;
         found.count = 1;
@@ -150,9 +161,9 @@ static choice pick_layer(const wo_io_part *part, const char *layer, bool any_cas
 
 /* What a part shows by itself; a part of layers only shows the first with colour, else the first.
  */
-static choice pick_default(const wo_io_part *part)
+static wo_io_choice pick_default(const wo_io_part *part)
 {
-    choice found = pick_layer(part, "", false);
+    wo_io_choice found = pick_layer(part, "", false);
     for (int i = 0; i < part->channels && found.count < 3; i++) {
         char layer[256];
         const char *const channel = part->channel_names[i];
@@ -163,7 +174,7 @@ static choice pick_default(const wo_io_part *part)
             continue;
         memcpy(layer, channel, length);
         layer[length] = '\0';
-        const choice other = pick_layer(part, layer, false);
+        const wo_io_choice other = pick_layer(part, layer, false);
         if (other.count > 2 || found.count == 0)
             found = other;
     }
@@ -171,9 +182,9 @@ static choice pick_default(const wo_io_part *part)
 }
 
 /* Channels or a layer of one part. */
-static choice pick_in_part(const wo_io_part *part, const char *words)
+static wo_io_choice pick_in_part(const wo_io_part *part, const char *words)
 {
-    choice found = {.part = part};
+    wo_io_choice found = {.part = part};
     if (!*words)
         return pick_default(part);
     for (int any_case = 0; any_case < 2 && !found.count; any_case++) {
@@ -210,9 +221,9 @@ static const wo_io_part *find_part(const wo_io_file *file, const char *name, siz
                                                                         : NULL;
 }
 
-static choice pick(const wo_io_file *file, const char *words)
+static wo_io_choice pick(const wo_io_file *file, const char *words)
 {
-    choice found = {0};
+    wo_io_choice found = {0};
     for (int layers = 0; layers < 2; layers++)
         for (int any_case = 0; any_case < 2; any_case++)
             for (size_t i = 0; i < file->part_count; i++) {
@@ -261,7 +272,7 @@ static void list_contents(const wo_io_file *file, char *buffer, size_t size)
     }
 }
 
-static wo_status copy_choice(const choice *found, wo_image *image, wo_error *error)
+wo_status wo_io_copy_choice(const wo_io_choice *found, wo_image *image, wo_error *error)
 {
     const wo_io_part *const part = found->part;
     const size_t pixels =
@@ -285,20 +296,18 @@ static wo_status copy_choice(const choice *found, wo_image *image, wo_error *err
     return WO_OK;
 }
 
-wo_status wo_io_select(const wo_io_file *file, const char *channels, wo_image *image,
-                       const wo_io_part **part, wo_error *error)
+wo_status wo_io_choose(const wo_io_file *file, const char *channels, wo_io_choice *chosen,
+                       wo_error *error)
 {
     char contents[160];
     const char *const words = channels ? channels : "";
-    *image = (wo_image){0};
-    if (part)
-        *part = NULL;
-    const choice found = *words ? pick(file, words) : pick_default(&file->parts[0]);
+    *chosen = (wo_io_choice){.part = 0};
+    const wo_io_choice found = *words ? pick(file, words) : pick_default(&file->parts[0]);
     list_contents(file, contents, sizeof contents);
     if (!found.count && !*words)
         return wo_fail(error, WO_ERR_NOT_FOUND, "no colour or depth to choose by itself among %s",
                        contents);
-    if (!found.count && count_words(words) > MOST_PICKED)
+    if (!found.count && count_words(words) > WO_IO_MOST_CHOSEN)
         return wo_fail(error, WO_ERR_UNSUPPORTED, "'%.40s': choose 1, 3 or 4 channels of %s", words,
                        contents);
     if (!found.count)
@@ -307,9 +316,23 @@ wo_status wo_io_select(const wo_io_file *file, const char *channels, wo_image *i
     if (found.count == 2)
         return wo_fail(error, WO_ERR_UNSUPPORTED, "'%.40s' is 2 channels; choose 1, 3 or 4 of %s",
                        words, contents);
+    *chosen = found;
+    return WO_OK;
+}
+
+wo_status wo_io_select(const wo_io_file *file, const char *channels, wo_image *image,
+                       const wo_io_part **part, wo_error *error)
+{
+    wo_io_choice found;
+    *image = (wo_image){0};
+    if (part)
+        *part = NULL;
+    WO_TRY(wo_io_choose(file, channels, &found, error));
+    if (found.part->fault)
+        return wo_fail(error, WO_ERR_FORMAT, "%s", found.part->fault);
     if (!found.part->pixels)
         return wo_fail(error, WO_ERR_ARGUMENT, "only the header of the file was read");
-    WO_TRY(copy_choice(&found, image, error));
+    WO_TRY(wo_io_copy_choice(&found, image, error));
     if (part)
         *part = found.part;
     return WO_OK;
@@ -365,10 +388,29 @@ static size_t mark_at(const char *text, int *digits)
     return text[length] == 'd' ? length + 1 : 0;
 }
 
+/* Length of what is there under just this name, the file or leading folders: a mark in it is none.
+ */
+static size_t literal_length(const char *pattern)
+{
+    char path[PATH_MAX];
+    struct stat about;
+    for (size_t length = strlen(pattern); length > 0; length--) {
+        if (length >= sizeof path || (pattern[length] && pattern[length - 1] != '/'))
+            continue;
+        memcpy(path, pattern, length);
+        path[length] = '\0';
+        if (!stat(path, &about) && S_ISDIR(about.st_mode) == (pattern[length - 1] == '/'))
+            return length;
+    }
+    return 0;
+}
+
 bool wo_io_is_sequence(const char *pattern)
 {
     int digits;
-    for (const char *at = pattern; at && *at; at++)
+    if (!pattern)
+        return false;
+    for (const char *at = pattern + literal_length(pattern); *at; at++)
         if (mark_at(at, &digits))
             return true;
     return false;
@@ -378,12 +420,13 @@ wo_status wo_io_frame_path(const char *pattern, int frame, char *buffer, size_t 
                            wo_error *error)
 {
     size_t used = 0;
+    const char *const marks = pattern + literal_length(pattern);
     if (size > 0)
         buffer[0] = '\0';
     for (const char *at = pattern; *at;) {
         char text[16];
-        int digits;
-        const size_t mark = mark_at(at, &digits);
+        int digits = 0;
+        const size_t mark = at >= marks ? mark_at(at, &digits) : 0;
         if (mark)
             snprintf(text, sizeof text, "%0*d", digits, frame);
         else

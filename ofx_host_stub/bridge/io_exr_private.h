@@ -48,9 +48,11 @@ WO_NODISCARD wo_status wo_exr_write_attributes(const wo_exr_stream *stream, exr_
 
 /* One channel as it lies in a chunk. */
 typedef struct wo_exr_channel {
-    int target; /* index in wo_io_part */
+    int target; /* index in wo_io_part, -1 = not wanted */
     exr_pixel_type_t type;
-    uint8_t bytes; /* of a sample */
+    uint8_t bytes;                  /* of a sample */
+    bool chroma;                    /* RY of a layer of luminance and chroma */
+    int32_t x_sampling, y_sampling; /* every how many pixels there is a sample */
 } wo_exr_channel;
 
 /* A part being read. */
@@ -60,10 +62,12 @@ typedef struct wo_exr_source {
     int index;
     wo_io_part *part;
     const wo_exr_channel *channels; /* in file order */
-    size_t pixel_bytes;             /* of one sample of every channel */
+    size_t channel_count;
+    size_t pixel_bytes; /* of one sample of every channel */
     exr_storage_t storage;
     exr_compression_t compression;
     int32_t tile_width, tile_height; /* 0 = scanlines */
+    int32_t left, top;               /* of the data window, as the file counts */
     int32_t x, y;                    /* of the chunk being unpacked: left, top, y down, from 0 */
     wo_status status;                /* why unpacking failed */
     wo_error *error;
@@ -73,6 +77,22 @@ typedef struct wo_exr_source {
 
 /* Sample i of a channel's row as a float. */
 float wo_exr_sample(const uint8_t *row, exr_pixel_type_t type, size_t i);
+
+/* Gives a part that has a head its pixels; count channels in file order (io_exr_read.c). */
+WO_NODISCARD wo_status wo_exr_read_pixels(wo_exr_stream *stream, exr_const_context_t exr, int index,
+                                          wo_io_part *part, const wo_exr_channel *channels,
+                                          size_t count, wo_error *error);
+
+/* io_exr_chroma.c. */
+
+/* Does the channel belong to a layer of Y, RY and BY without other colours? Then such a layer is
+   shown as R, G, B: RY in the place of R, Y of G, BY of B. */
+bool wo_exr_is_chroma(const exr_attr_chlist_t *list, const char *name);
+/* Fills the pixels between the samples of a channel. left and top are those of the data window in
+   the file; both samplings divide them and the part's size. */
+void wo_exr_interpolate(wo_io_part *part, const wo_exr_channel *channel);
+/* Y, RY, BY in the places red, red + 1, red + 2 to R, G, B. */
+void wo_exr_chroma_to_rgb(wo_io_part *part, int red, const exr_attr_chromaticities_t *primaries);
 
 /* Flattens one deep chunk into the part (io_exr_deep.c). */
 WO_NODISCARD wo_status wo_exr_flatten(wo_exr_source *source, const exr_decode_pipeline_t *decode);

@@ -2,11 +2,10 @@
 /* Copyright the WideOpen authors */
 #define _POSIX_C_SOURCE 200809L
 #include "half.h"
+#include "io_child_private.h"
 #include "io_exr_private.h"
 
 #include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
 
 /* Samples lie in a file with their low byte first. */
 static inline float half_at(const uint8_t *row, size_t i)
@@ -42,116 +41,31 @@ static void unpack_row(const uint8_t *row, exr_pixel_type_t type, size_t count, 
             to[i * stride] = (float)word_at(row, i);
 }
 
-/* Channel order. */
-
-typedef struct place {
-    const char *name;
-    int index; /* in the file */
-} place;
-
-/* Layers by name, the nameless one first; R G B A lead inside a layer. */
-static int compare_places(const void *left, const void *right)
-{
-    const place *const a = left, *const b = right;
-    const size_t length_a = wo_io_layer_length(a->name), length_b = wo_io_layer_length(b->name);
-    const size_t shorter = length_a < length_b ? length_a : length_b;
-    const int layer = memcmp(a->name, b->name, shorter);
-    if (layer)
-        return layer;
-    if (length_a != length_b)
-        return length_a < length_b ? -1 : 1;
-    const int component_a = wo_io_component(a->name), component_b = wo_io_component(b->name);
-    if (component_a != component_b)
-        return component_a - component_b;
-    const int name = strcmp(a->name, b->name);
-    return name ? name : a->index - b->index;
-}
-
-/* Windows. */
-
-static wo_status part_windows(const wo_exr_stream *stream, exr_const_context_t exr, int index,
-                              wo_rect *data, wo_rect *display, wo_error *error)
-{
-    exr_attr_box2i_t inner, outer;
-    WO_EXR_TRY(stream, exr_get_data_window(exr, index, &inner));
-    WO_EXR_TRY(stream, exr_get_display_window(exr, index, &outer));
-    const int64_t values[8] = {(int64_t)inner.min.x - outer.min.x,
-                               (int64_t)outer.max.y - inner.max.y,
-                               (int64_t)inner.max.x - outer.min.x + 1,
-                               (int64_t)outer.max.y - inner.min.y + 1,
-                               0,
-                               0,
-                               (int64_t)outer.max.x - outer.min.x + 1,
-                               (int64_t)outer.max.y - outer.min.y + 1};
-    int32_t cut[8];
-    for (int i = 0; i < 8; i++)
-        cut[i] = (int32_t)(values[i] < INT32_MIN   ? INT32_MIN
-                           : values[i] > INT32_MAX ? INT32_MAX
-                                                   : values[i]);
-    *data = (wo_rect){cut[0], cut[1], cut[2], cut[3]};
-    *display = (wo_rect){cut[4], cut[5], cut[6], cut[7]};
-    return WO_OK;
-}
-
-/* Header of one part; channels is the list in file order, malloc-ed. */
-static wo_status read_head(const wo_exr_stream *stream, exr_const_context_t exr, int index,
-                           wo_io_part *part, wo_exr_channel **channels, uint64_t *bytes,
-                           wo_error *error)
-{
-    const exr_attr_chlist_t *list = NULL;
-    const char *name = NULL;
-    float aspect = 1;
-    wo_rect data, display;
-
-    *channels = NULL;
-    WO_TRY(part_windows(stream, exr, index, &data, &display, error));
-    WO_EXR_TRY(stream, exr_get_channels(exr, index, &list));
-    WO_EXR_TRY(stream, exr_get_pixel_aspect_ratio(exr, index, &aspect));
-    if (exr_get_name(exr, index, &name) != EXR_ERR_SUCCESS)
-        name = NULL;
-    WO_TRY(wo_io_check_size(stream->path, data, display, list->num_channels, bytes, error));
-
-    const size_t count = (size_t)list->num_channels;
-    place *const places = calloc(count, sizeof *places);
-    const char **const names = calloc(count, sizeof *names);
-    *channels = calloc(count, sizeof **channels);
-    wo_status status = WO_OK;
-    if (!places || !names || !*channels)
-        status = wo_fail(error, WO_ERR_NOMEM, "no memory for %zu channels", count);
-    for (size_t i = 0; status == WO_OK && i < count; i++)
-        places[i] = (place){list->entries[i].name.str, (int)i};
-    if (status == WO_OK) {
-        qsort(places, count, sizeof *places, compare_places);
-        for (size_t i = 0; i < count; i++) {
-            const exr_attr_chlist_entry_t *const entry = &list->entries[places[i].index];
-            names[i] = places[i].name;
-            (*channels)[places[i].index] = (wo_exr_channel){
-                (int)i, entry->pixel_type, entry->pixel_type == EXR_PIXEL_HALF ? 2 : 4};
-        }
-        status = wo_io_part_head(part, name, data, display, names, (int)count, error);
-    }
-    free(places);
-    free((void *)names);
-    WO_TRY(status);
-
-    part->pixel_aspect = aspect > 0 && aspect < 1e6f ? (double)aspect : 1;
-    part->bits = 16;
-    part->is_float = false;
-    for (size_t i = 0; i < count; i++) {
-        const exr_attr_chlist_entry_t *const entry = &list->entries[i];
-        if (entry->pixel_type != EXR_PIXEL_HALF)
-            part->bits = 32;
-        if (entry->pixel_type != EXR_PIXEL_UINT)
-            part->is_float = true;
-    }
-    return wo_exr_read_attributes(stream, exr, index, part, error);
-}
-
 /* Pixels. */
 
 static wo_status damaged(const wo_exr_source *source, const char *what)
 {
     return wo_fail(source->error, WO_ERR_FORMAT, "%s: %s", wo_io_shown(source->stream->path), what);
+}
+
+/* Pixels of first to first + count that have a sample, as the file counts. */
+static size_t samples_in(int64_t first, size_t count, int32_t sampling)
+{
+    const int64_t skipped = ((first % sampling) + sampling) % sampling;
+    const int64_t before = skipped ? sampling - skipped : 0;
+    return (int64_t)count > before ? (size_t)(((int64_t)count - before - 1) / sampling + 1) : 0;
+}
+
+static size_t flat_bytes(const wo_exr_source *source, size_t width, size_t height)
+{
+    size_t bytes = 0;
+    for (size_t c = 0; c < source->channel_count; c++) {
+        const wo_exr_channel *const channel = &source->channels[c];
+        bytes += samples_in((int64_t)source->left + source->x, width, channel->x_sampling) *
+                 samples_in((int64_t)source->top + source->y, height, channel->y_sampling) *
+                 channel->bytes;
+    }
+    return bytes;
 }
 
 static wo_status unpack_flat(const wo_exr_source *source, const exr_decode_pipeline_t *decode)
@@ -163,17 +77,24 @@ static wo_status unpack_flat(const wo_exr_source *source, const exr_decode_pipel
     const size_t stride = (size_t)part->channels;
     const uint8_t *row = decode->unpacked_buffer;
 
-    if (!row || decode->chunk.unpacked_size != width * height * source->pixel_bytes)
+    if (!row || decode->chunk.unpacked_size != flat_bytes(source, width, height))
         return damaged(source, "a block of pixels has a wrong size");
     if ((size_t)source->x + width > part_width || (size_t)source->y + height > part_height)
         return damaged(source, "a block of pixels lies outside the picture");
     for (size_t line = 0; line < height; line++) {
         const size_t up = part_height - 1 - ((size_t)source->y + line);
         float *const to = part->pixels + (up * part_width + (size_t)source->x) * stride;
-        for (size_t c = 0; c < stride; c++) {
-            const wo_exr_channel channel = source->channels[c];
-            unpack_row(row, channel.type, width, to + channel.target, stride);
-            row += width * channel.bytes;
+        for (size_t c = 0; c < source->channel_count; c++) {
+            const wo_exr_channel *const channel = &source->channels[c];
+            if (!samples_in((int64_t)source->top + source->y + (int64_t)line, 1,
+                            channel->y_sampling))
+                continue;
+            const size_t count =
+                samples_in((int64_t)source->left + source->x, width, channel->x_sampling);
+            if (channel->target >= 0)
+                unpack_row(row, channel->type, count, to + channel->target,
+                           stride * (size_t)channel->x_sampling);
+            row += count * channel->bytes;
         }
     }
     return WO_OK;
@@ -289,31 +210,72 @@ static wo_status check_plausible(const wo_exr_source *source)
     return WO_OK;
 }
 
+/* Channels of lower resolution: only what the standard allows, and what the libraries can read. */
+static wo_status check_sampling(const wo_exr_source *source, bool *reduced)
+{
+    const int32_t width = wo_rect_width(source->part->data_window);
+    const int32_t height = wo_rect_height(source->part->data_window);
+    *reduced = false;
+    for (size_t c = 0; c < source->channel_count; c++) {
+        const int32_t xs = source->channels[c].x_sampling, ys = source->channels[c].y_sampling;
+        if (xs == 1 && ys == 1)
+            continue;
+        *reduced = true;
+        if (xs < 1 || ys < 1 || width % xs || height % ys || source->left % xs || source->top % ys)
+            return damaged(source, "channels whose resolution does not divide the picture's");
+    }
+    if (*reduced && source->storage != EXR_STORAGE_SCANLINE)
+        return damaged(source, "tiles or deep pixels with channels of reduced resolution");
+    if (*reduced && source->compression >= EXR_COMPRESSION_DWAA)
+        return wo_fail(source->error, WO_ERR_UNSUPPORTED,
+                       "%s: channels of reduced resolution packed as DWA; save the picture with "
+                       "another compression",
+                       wo_io_shown(source->stream->path));
+    return WO_OK;
+}
+
+/* What is left to do when all samples are there. */
+static void finish_channels(const wo_exr_source *source)
+{
+    const exr_attribute_t *said = NULL;
+    for (size_t c = 0; c < source->channel_count; c++) {
+        const wo_exr_channel *const channel = &source->channels[c];
+        if (channel->target >= 0 && (channel->x_sampling > 1 || channel->y_sampling > 1))
+            wo_exr_interpolate(source->part, channel);
+    }
+    if (exr_get_attribute_by_name(source->exr, source->index, "chromaticities", &said) !=
+            EXR_ERR_SUCCESS ||
+        said->type != EXR_ATTR_CHROMATICITIES)
+        said = NULL;
+    for (size_t c = 0; c < source->channel_count; c++)
+        if (source->channels[c].chroma && source->channels[c].target >= 0)
+            wo_exr_chroma_to_rgb(source->part, source->channels[c].target,
+                                 said ? said->chromaticities : NULL);
+}
+
 /* OpenEXRCore 3.1 has no DWA, and its B44 takes float channels apart wrongly: those go through
-   OpenImageIO. */
-static wo_status read_pixels(wo_exr_stream *stream, exr_const_context_t exr, int index,
-                             wo_io_part *part, const wo_exr_channel *channels, wo_error *error)
+   OpenImageIO, which does not read channels of reduced resolution. */
+wo_status wo_exr_read_pixels(wo_exr_stream *stream, exr_const_context_t exr, int index,
+                             wo_io_part *part, const wo_exr_channel *channels, size_t count,
+                             wo_error *error)
 {
     wo_exr_source source = {.stream = stream,
                             .exr = exr,
                             .index = index,
                             .part = part,
                             .channels = channels,
+                            .channel_count = count,
                             .error = error};
-    const exr_attr_chlist_t *list = NULL;
+    exr_attr_box2i_t window;
+    bool reduced;
     WO_EXR_TRY(stream, exr_get_storage(exr, index, &source.storage));
     WO_EXR_TRY(stream, exr_get_compression(exr, index, &source.compression));
-    WO_EXR_TRY(stream, exr_get_channels(exr, index, &list));
-    for (int i = 0; i < list->num_channels; i++) {
-        const exr_attr_chlist_entry_t *const entry = &list->entries[i];
+    WO_EXR_TRY(stream, exr_get_data_window(exr, index, &window));
+    source.left = window.min.x;
+    source.top = window.min.y;
+    for (size_t i = 0; i < count; i++)
         source.pixel_bytes += channels[i].bytes;
-        if (entry->x_sampling != 1 || entry->y_sampling != 1)
-            return wo_fail(error, WO_ERR_UNSUPPORTED,
-                           "%s: channel %s is stored at 1/%d x 1/%d of the resolution; save the "
-                           "picture as plain RGB",
-                           wo_io_shown(stream->path), entry->name.str, (int)entry->x_sampling,
-                           (int)entry->y_sampling);
-    }
+    WO_TRY(check_sampling(&source, &reduced));
     if (source.storage == EXR_STORAGE_TILED || source.storage == EXR_STORAGE_DEEP_TILED) {
         WO_EXR_TRY(stream,
                    exr_get_tile_sizes(exr, index, 0, 0, &source.tile_width, &source.tile_height));
@@ -323,8 +285,11 @@ static wo_status read_pixels(wo_exr_stream *stream, exr_const_context_t exr, int
     }
     WO_TRY(check_plausible(&source));
     WO_TRY(wo_io_part_pixels(part, error));
-    if (source.compression >= EXR_COMPRESSION_B44)
-        return wo_io_oiio_exr_pixels(stream->path, index, part, error);
+    if (source.compression >= EXR_COMPRESSION_B44 && !reduced) {
+        WO_TRY(wo_io_exr_pixels_apart(stream->path, stream->fd, index, part, error));
+        finish_channels(&source);
+        return WO_OK;
+    }
 
     exr_decode_pipeline_t decode = EXR_DECODE_PIPELINE_INITIALIZER;
     bool started = false;
@@ -332,54 +297,7 @@ static wo_status read_pixels(wo_exr_stream *stream, exr_const_context_t exr, int
     if (started)
         exr_decoding_destroy(exr, &decode);
     free(source.scratch);
-    return status;
-}
-
-static wo_status read_parts(wo_exr_stream *stream, exr_const_context_t exr, bool headers_only,
-                            wo_io_file **file, wo_error *error)
-{
-    int count = 0;
-    uint64_t bytes = 0;
-    WO_EXR_TRY(stream, exr_get_count(exr, &count));
-    WO_TRY(wo_io_file_create(count > 0 ? (size_t)count : 0, file, error));
-    free((*file)->format);
-    (*file)->format = wo_io_copy_text("openexr");
-    if (!(*file)->format)
-        return wo_fail(error, WO_ERR_NOMEM, "no memory for an image file");
-    for (int i = 0; i < count; i++) {
-        wo_exr_channel *channels = NULL;
-        wo_io_part *const part = &(*file)->parts[i];
-        wo_status status = read_head(stream, exr, i, part, &channels, &bytes, error);
-        if (status == WO_OK && !headers_only)
-            status = read_pixels(stream, exr, i, part, channels, error);
-        free(channels);
-        WO_TRY(status);
-    }
-    return WO_OK;
-}
-
-wo_status wo_io_exr_read(const char *path, int fd, bool headers_only, wo_io_file **file,
-                         wo_error *error)
-{
-    struct stat about;
-    wo_exr_stream stream = {.path = path, .fd = fd};
-    if (fstat(fd, &about))
-        return wo_fail(error, WO_ERR_IO, "cannot read %s", wo_io_shown(path));
-    stream.size = about.st_size;
-
-    exr_context_t exr = NULL;
-    wo_exr_begin(&stream);
-    const exr_context_initializer_t settings = wo_exr_settings(&stream);
-    const exr_result_t result = exr_start_read(&exr, path, &settings);
-    wo_status status = WO_OK;
-    if (result != EXR_ERR_SUCCESS)
-        status = wo_exr_failure(&stream, result, error);
-    else
-        status = read_parts(&stream, exr, headers_only, file, error);
-    exr_finish(&exr);
-    wo_exr_end();
-    /* short of memory the library leaves things out and goes on */
-    if (stream.no_memory)
-        status = wo_exr_failure(&stream, EXR_ERR_OUT_OF_MEMORY, error);
+    if (status == WO_OK)
+        finish_channels(&source);
     return status;
 }

@@ -118,7 +118,6 @@ exr_context_initializer_t wo_exr_settings(wo_exr_stream *stream)
     settings.size_fn = file_size;
     settings.write_fn = write_bytes;
     settings.zip_level = 4;
-    settings.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
     return settings;
 }
 

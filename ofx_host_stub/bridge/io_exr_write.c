@@ -174,8 +174,11 @@ static wo_status write_part(const wo_exr_stream *stream, exr_context_t exr, int 
     drain source = {.part = part, .channels = channels};
     for (int i = 0; i < list->num_channels; i++) {
         const exr_attr_chlist_entry_t *const entry = &list->entries[i];
-        channels[i] = (wo_exr_channel){target_of(part, entry->name.str), entry->pixel_type,
-                                       entry->pixel_type == EXR_PIXEL_HALF ? 2 : 4};
+        channels[i] = (wo_exr_channel){.target = target_of(part, entry->name.str),
+                                       .type = entry->pixel_type,
+                                       .bytes = entry->pixel_type == EXR_PIXEL_HALF ? 2 : 4,
+                                       .x_sampling = 1,
+                                       .y_sampling = 1};
         source.pixel_bytes += channels[i].bytes;
     }
     exr_encode_pipeline_t encode = EXR_ENCODE_PIPELINE_INITIALIZER;

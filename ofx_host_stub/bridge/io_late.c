@@ -9,16 +9,14 @@
 #include <limits.h>
 
 /* OpenImageIO needs some 250 libraries, which take longer to load than a small picture to render:
-   io_oiio.cc is a library of its own beside the program, loaded with the first file that is not
-   plain EXR. It stays loaded; opening it again only finds it. */
+   io_oiio_write.cc is a library of its own beside the program, loaded when the first file that is
+   not EXR is written. It stays loaded; opening it again only finds it. */
 #define LIBRARY "wo_formats.so"
 
 typedef union symbol {
     void *address;
-    wo_status (*read)(const char *, const wo_io_format *, bool, wo_io_file **, wo_error *);
     wo_status (*write)(const char *, int, const wo_io_format *, const wo_io_part *, wo_io_depth,
                        wo_error *);
-    wo_status (*exr_pixels)(const char *, int, wo_io_part *, wo_error *);
 } symbol;
 
 static wo_status find(const char *name, symbol *found, wo_error *error)
@@ -37,25 +35,10 @@ static wo_status find(const char *name, symbol *found, wo_error *error)
                    why ? why : LIBRARY " is of another version");
 }
 
-wo_status wo_io_oiio_read(const char *path, const wo_io_format *format, bool headers_only,
-                          wo_io_file **file, wo_error *error)
-{
-    symbol found;
-    WO_TRY(find(__func__, &found, error));
-    return found.read(path, format, headers_only, file, error);
-}
-
 wo_status wo_io_oiio_write(const char *path, int fd, const wo_io_format *format,
                            const wo_io_part *part, wo_io_depth depth, wo_error *error)
 {
     symbol found;
     WO_TRY(find(__func__, &found, error));
     return found.write(path, fd, format, part, depth, error);
-}
-
-wo_status wo_io_oiio_exr_pixels(const char *path, int part_index, wo_io_part *part, wo_error *error)
-{
-    symbol found;
-    WO_TRY(find(__func__, &found, error));
-    return found.exr_pixels(path, part_index, part, error);
 }

@@ -3,7 +3,7 @@
 #ifndef WO_BRIDGE_IO_OIIO_PRIVATE_HH
 #define WO_BRIDGE_IO_OIIO_PRIVATE_HH
 
-/* What io_oiio.cc and io_oiio_write.cc share. */
+/* What io_oiio_read.cc and io_oiio_write.cc share. */
 #include "image_io_private.h"
 
 #include <OpenImageIO/imageio.h>

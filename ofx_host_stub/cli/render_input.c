@@ -108,6 +108,19 @@ static wo_status choose_space(const wo_inputs *inputs, const char *path, wo_inpu
     return p->path && p->space ? WO_OK : wo_fail(error, WO_ERR_NOMEM, "out of memory for a name");
 }
 
+/* Files that are not kept as a whole for other clips: of them only what a clip wants is read. */
+static bool is_large(const wo_io_file *file)
+{
+    uint64_t bytes = 0;
+    for (size_t i = 0; i < file->part_count; i++) {
+        const wo_io_part *const part = &file->parts[i];
+        bytes += (uint64_t)wo_rect_width(part->data_window) *
+                 (uint64_t)wo_rect_height(part->data_window) * (uint64_t)part->channels *
+                 sizeof(float);
+    }
+    return bytes > (uint64_t)256 << 20;
+}
+
 static wo_status read_picture(wo_input *input, int frame, wo_input_picture *p, wo_error *error)
 {
     char path[PATH_MAX];
@@ -120,11 +133,16 @@ static wo_status read_picture(wo_input *input, int frame, wo_input_picture *p, w
             "there is no %s; --missing-frames skip leaves such a frame out, hold repeats "
             "the one before it",
             path);
-    WO_TRY(open_cached(input->inputs, path, &file, error));
-    WO_TRY(wo_io_select(file, input->channels, &p->image, &part, error));
     p->frame = frame;
-    p->part = (size_t)(part - file->parts);
     WO_TRY(wo_io_read(path, true, &p->file, error));
+    if (is_large(p->file)) {
+        wo_io_file_destroy(&p->file);
+        WO_TRY(wo_io_read_view(path, input->channels, &p->file, &p->image, &p->part, error));
+    } else {
+        WO_TRY(open_cached(input->inputs, path, &file, error));
+        WO_TRY(wo_io_select(file, input->channels, &p->image, &part, error));
+        p->part = (size_t)(part - file->parts);
+    }
     if (p->part >= p->file->part_count)
         return wo_fail(error, WO_ERR_FORMAT, "%s changed while it was read", path);
     return choose_space(input->inputs, path, p, error);

@@ -22,10 +22,12 @@ static size_t marked_length(const char *pattern)
     while (pattern[length]) {
         length += strspn(pattern + length, "/");
         length += strcspn(pattern + length, "/");
-        if (length >= sizeof part)
+        if (length + 1 >= sizeof part)
             return 0;
-        memcpy(part, pattern, length);
-        part[length] = '\0';
+        /* with its slash, which tells a folder that is there */
+        const size_t bytes = length + (pattern[length] == '/');
+        memcpy(part, pattern, bytes);
+        part[bytes] = '\0';
         if (wo_io_is_sequence(part))
             return length;
     }

@@ -360,7 +360,7 @@ static void defaults_are_sensible(void **state)
         int count, wanted, first;
     } cases[] = {
         {{"Y"}, 1, 1, 0},
-        {{"Y", "A"}, 2, 1, 0},
+        {{"Y", "A"}, 2, 4, 0},
         {{"Z"}, 1, 1, 0},
         {{"mask"}, 1, 1, 0},
         {{"A"}, 1, 1, 0},

@@ -1,18 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
 #include "guard.hh"
-#include "image_io_private.h"
+#include "io_child_private.h"
 #include "io_oiio_private.hh"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
-#include <string>
+#include <stdexcept>
 #include <vector>
 
 namespace
@@ -73,8 +69,6 @@ wo_status add_attribute(wo_io_part *part, const OIIO::ParamValue &value, wo_erro
     return wo_io_part_add(part, name, WO_IO_TEXT, 0, text.c_str(), array_kind(type, count), error);
 }
 
-/* Reading. */
-
 wo_rect rectangle(int64_t x1, int64_t y1, int64_t width, int64_t height)
 {
     const auto cut = [](int64_t value) {
@@ -83,8 +77,8 @@ wo_rect rectangle(int64_t x1, int64_t y1, int64_t width, int64_t height)
     return {cut(x1), cut(y1), cut(x1 + width), cut(y1 + height)};
 }
 
-wo_status fill_head(wo_io_part *part, const char *path, const wo_io_format *format,
-                    const OIIO::ImageSpec &spec, uint64_t *bytes, wo_error *error)
+wo_status fill_head(wo_io_part *part, const wo_child_request *request, const OIIO::ImageSpec &spec,
+                    uint64_t *bytes, wo_error *error)
 {
     const bool framed = spec.full_width > 0 && spec.full_height > 0;
     const int64_t frame_width = framed ? spec.full_width : spec.width;
@@ -94,10 +88,10 @@ wo_status fill_head(wo_io_part *part, const char *path, const wo_io_format *form
     const wo_rect data = rectangle(left, frame_height - top - spec.height, spec.width, spec.height);
     const wo_rect display = rectangle(0, 0, frame_width, frame_height);
 
-    WO_TRY(wo_io_check_size(path, data, display, spec.nchannels, bytes, error));
+    WO_TRY(wo_io_check_size(request->shown, data, display, spec.nchannels, bytes, error));
     if (spec.depth > 1 || spec.deep)
         return wo_fail(error, WO_ERR_UNSUPPORTED, "%s: volumes and deep pictures of this format",
-                       wo_io_shown(path));
+                       request->shown);
     std::vector<const char *> names;
     for (int i = 0; i < spec.nchannels; i++)
         names.push_back(spec.channelnames[static_cast<size_t>(i)].c_str());
@@ -112,7 +106,7 @@ wo_status fill_head(wo_io_part *part, const char *path, const wo_io_format *form
             value.name() != "oiio:ColorSpace")
             WO_TRY(add_attribute(part, value, error));
     /* PNM files say nothing; the library makes them Rec.709, other programs write sRGB */
-    const bool silent = !std::strcmp(format->library_name, "pnm");
+    const bool silent = !std::strcmp(request->library, "pnm");
     char *const space =
         wo_io_copy_text(silent ? "" : spec.get_string_attribute("oiio:ColorSpace").c_str());
     if (!space)
@@ -134,116 +128,129 @@ void flip_rows(wo_io_part *part)
 
 /* Headers that claim far more than the format can pack into the file's length. WebP and JPEG 2000
    can say "all the same" in a few bytes. */
-wo_status check_plausible(const char *path, const wo_io_format *format, const OIIO::ImageSpec &spec,
-                          wo_error *error)
+bool is_plausible(const wo_child_request *request, const OIIO::ImageSpec &spec, uint64_t file_bytes)
 {
-    const uint64_t file = OIIO::Filesystem::file_size(path);
-    const bool terse = !std::strcmp(format->library_name, "webp") ||
-                       !std::strcmp(format->library_name, "jpeg2000");
-    if (!terse && spec.image_bytes(true) / 4096 > file)
-        return wo_fail(error, WO_ERR_FORMAT, "%s: the file is too short for its picture",
-                       wo_io_shown(path));
-    return WO_OK;
+    const bool terse =
+        !std::strcmp(request->library, "webp") || !std::strcmp(request->library, "jpeg2000");
+    return terse || spec.image_bytes(true) / 4096 <= file_bytes;
 }
 
-/* One subimage. */
-wo_status read_part(OIIO::ImageInput *input, const char *path, const wo_io_format *format,
-                    int index, bool headers_only, wo_io_part *part, uint64_t *bytes,
-                    wo_error *error)
+/* The pixels of one subimage whose head is filled; what is wrong goes into *error. */
+wo_status read_pixels(OIIO::ImageInput *input, const wo_child_request *request, int index,
+                      uint64_t file_bytes, wo_io_part *part, wo_error *error)
 {
     const OIIO::ImageSpec spec = input->spec(index);
-    if (spec.nchannels < 1)
-        return failure(error, WO_ERR_FORMAT, path, words_of(input));
-    WO_TRY(fill_head(part, path, format, spec, bytes, error));
-    if (headers_only)
-        return WO_OK;
-    WO_TRY(check_plausible(path, format, spec, error));
+    if (spec.width != wo_rect_width(part->data_window) ||
+        spec.height != wo_rect_height(part->data_window) || spec.nchannels != part->channels)
+        return failure(error, WO_ERR_FORMAT, request->shown, "its head reads differently twice");
+    if (!is_plausible(request, spec, file_bytes))
+        return failure(error, WO_ERR_FORMAT, request->shown,
+                       "the file is too short for its picture");
     WO_TRY(wo_io_part_pixels(part, error));
     if (!input->read_image(index, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, part->pixels))
-        return failure(error, WO_ERR_FORMAT, path, words_of(input));
+        return failure(error, WO_ERR_FORMAT, request->shown, words_of(input));
     flip_rows(part);
     return WO_OK;
 }
 
-wo_status read_file(const char *path, const wo_io_format *format, bool headers_only,
-                    wo_io_file **file, wo_error *error)
+wo_status send_parts(OIIO::ImageInput *input, const wo_child_request *request, int first,
+                     uint64_t file_bytes, wo_io_file *file, const wo_child_sink *sink,
+                     wo_error *error)
 {
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format->library_name);
-    if (!input)
-        return failure(error, WO_ERR_UNSUPPORTED, path, words_of<OIIO::ImageInput>(nullptr));
-    /* Its own parallel way through TIFF strips trusts their sizes and crashes on damaged files;
-       libtiff's does not. */
-    OIIO::attribute("tiff:multithread", 0);
-    OIIO::ImageSpec first, config;
-    config.attribute("oiio:UnassociatedAlpha", 1);
-    if (!input->open(path, first, config))
-        return failure(error, WO_ERR_FORMAT, path, words_of(input.get()));
-    input->threads(1);
+    for (size_t i = 0; i < file->part_count; i++) {
+        wo_io_part *const part = &file->parts[i];
+        wo_error own = {};
+        const wo_status status =
+            read_pixels(input, request, first + static_cast<int>(i), file_bytes, part, &own);
+        if (status != WO_OK && file->part_count == 1)
+            return wo_fail(error, status, "%s", own.text);
+        WO_TRY(status == WO_OK ? sink->pixels(sink->to, i, part, error)
+                               : sink->fault(sink->to, i, own.text, error));
+        std::free(part->pixels);
+        part->pixels = nullptr;
+    }
+    return WO_OK;
+}
 
+int count_parts(OIIO::ImageInput *input)
+{
     int count = 1;
     while (count <= WO_IO_MAX_PARTS && input->seek_subimage(count, 0))
         count++;
-    (void)words_of(input.get());
+    (void)words_of(input);
+    return count;
+}
+
+wo_status read_file(const wo_child_request *request, const char *path, uint64_t file_bytes,
+                    const wo_child_sink *sink, wo_io_file **file, wo_error *error)
+{
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(request->library);
+    if (!input)
+        return failure(error, WO_ERR_UNSUPPORTED, request->shown,
+                       words_of<OIIO::ImageInput>(nullptr));
+    OIIO::ImageSpec spec, config;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    if (!input->open(path, spec, config))
+        return failure(error, WO_ERR_FORMAT, request->shown, words_of(input.get()));
+    input->threads(1);
+
+    const int first = request->part < 0 ? 0 : request->part;
+    const int count = request->part < 0 ? count_parts(input.get()) : 1;
     if (count > WO_IO_MAX_PARTS)
-        return wo_fail(error, WO_ERR_RANGE, "%s: more than %d pictures in one file",
-                       wo_io_shown(path), WO_IO_MAX_PARTS);
+        return wo_fail(error, WO_ERR_RANGE, "%s: more than %d pictures in one file", request->shown,
+                       WO_IO_MAX_PARTS);
     WO_TRY(wo_io_file_create(static_cast<size_t>(count), file, error));
     std::free((*file)->format);
-    (*file)->format = wo_io_copy_text(format->library_name);
+    (*file)->format = wo_io_copy_text(request->library);
     if (!(*file)->format)
         return wo_fail(error, WO_ERR_NOMEM, "no memory for an image file");
     uint64_t bytes = 0;
-    for (int i = 0; i < count; i++)
-        WO_TRY(read_part(input.get(), path, format, i, headers_only, &(*file)->parts[i], &bytes,
-                         error));
-    return WO_OK;
+    for (int i = 0; i < count; i++) {
+        spec = input->spec(first + i);
+        if (spec.nchannels < 1)
+            return failure(error, WO_ERR_FORMAT, request->shown, words_of(input.get()));
+        WO_TRY(fill_head(&(*file)->parts[i], request, spec, &bytes, error));
+    }
+    WO_TRY(sink->head(sink->to, *file, error));
+    if (request->headers_only)
+        return WO_OK;
+    return send_parts(input.get(), request, first, file_bytes, *file, sink, error);
 }
 
-/* Pixels of one EXR part into a part whose channels may be in another order. */
-wo_status read_exr_part(const char *path, int index, wo_io_part *part, wo_error *error)
+/* The library's exceptions on damaged files: a size that no vector can have, a place outside. */
+wo_status read_guarded(const wo_child_request *request, const char *path, uint64_t file_bytes,
+                       const wo_child_sink *sink, wo_io_file **file, wo_error *error)
 {
-    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create("openexr");
-    OIIO::ImageSpec spec;
-    if (!input)
-        return failure(error, WO_ERR_UNSUPPORTED, path, words_of<OIIO::ImageInput>(nullptr));
-    input->threads(1);
-    if (!input->open(path, spec) || !input->seek_subimage(index, 0))
-        return failure(error, WO_ERR_FORMAT, path, words_of(input.get()));
-    spec = input->spec(index);
-    if (spec.width != wo_rect_width(part->data_window) ||
-        spec.height != wo_rect_height(part->data_window) || spec.nchannels != part->channels ||
-        spec.deep)
-        return failure(error, WO_ERR_FORMAT, path, "two libraries read its header differently");
-    std::vector<float> pixels(static_cast<size_t>(spec.image_pixels()) *
-                              static_cast<size_t>(spec.nchannels));
-    if (!input->read_image(index, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()))
-        return failure(error, WO_ERR_FORMAT, path, words_of(input.get()));
-    const auto stride = static_cast<size_t>(spec.nchannels);
-    for (size_t c = 0; c < stride; c++) {
-        const int from = spec.channelindex(part->channel_names[c]);
-        if (from < 0)
-            return failure(error, WO_ERR_FORMAT, path,
-                           "two libraries name its channels differently");
-        for (size_t i = 0; i < spec.image_pixels(); i++)
-            part->pixels[i * stride + c] = pixels[i * stride + static_cast<size_t>(from)];
+    try {
+        return read_file(request, path, file_bytes, sink, file, error);
+    } catch (const std::bad_alloc &) {
+        return wo_fail(error, WO_ERR_FORMAT,
+                       "%s: the %s reader wants far more memory than the picture can need: the "
+                       "file is damaged",
+                       request->shown, request->extension);
+    } catch (const std::length_error &) {
+        return wo_fail(error, WO_ERR_FORMAT,
+                       "%s: the %s reader met an impossible size: the file is damaged",
+                       request->shown, request->extension);
+    } catch (const std::logic_error &problem) {
+        return wo_fail(error, WO_ERR_FORMAT, "%s: the %s reader gave up (%s): the file is damaged",
+                       request->shown, request->extension, problem.what());
     }
-    flip_rows(part);
-    return WO_OK;
 }
 
 } // namespace
 
-extern "C" wo_status wo_io_oiio_read(const char *path, const wo_io_format *format,
-                                     bool headers_only, wo_io_file **file, wo_error *error)
+extern "C" wo_status wo_io_oiio_read(const wo_child_request *request, const char *path,
+                                     uint64_t file_bytes, const wo_child_sink *sink,
+                                     wo_error *error)
 {
-    return wo_guard(error, __func__, [&]() -> wo_status {
-        return read_file(path, format, headers_only, file, error);
+    /* The library's own parallel way through TIFF strips trusts their sizes; libtiff's does not. */
+    OIIO::attribute("tiff:multithread", 0);
+    OIIO::attribute("threads", 1);
+    wo_io_file *file = nullptr;
+    const wo_status status = wo_guard(error, __func__, [&]() -> wo_status {
+        return read_guarded(request, path, file_bytes, sink, &file, error);
     });
-}
-
-extern "C" wo_status wo_io_oiio_exr_pixels(const char *path, int part_index, wo_io_part *part,
-                                           wo_error *error)
-{
-    return wo_guard(error, __func__,
-                    [&]() -> wo_status { return read_exr_part(path, part_index, part, error); });
+    wo_io_file_destroy(&file);
+    return status;
 }
