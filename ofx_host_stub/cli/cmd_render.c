@@ -180,10 +180,23 @@ static int read_numbers(wo_render_job *job)
     return code == WO_EXIT_OK ? read_bits(job) : code;
 }
 
+/* Is NAME=FILE[:CHANNELS] a sequence? */
+static bool is_sequence(const char *clip)
+{
+    const char *const equals = strchr(clip, '=');
+    char *file, *channels;
+    if (wo_picture_split(equals ? equals + 1 : clip, 1, &file, &channels, NULL) != WO_OK)
+        return false;
+    const bool result = wo_io_is_sequence(file);
+    free(file);
+    free(channels);
+    return result;
+}
+
 static bool any_sequence(const wo_args *args)
 {
     for (int i = 0; i < wo_args_count(args, "--clip"); i++)
-        if (wo_io_is_sequence(wo_args_value(args, "--clip", i)))
+        if (is_sequence(wo_args_value(args, "--clip", i)))
             return true;
     return false;
 }

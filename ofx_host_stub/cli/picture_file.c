@@ -45,19 +45,31 @@ wo_status wo_picture_split(const char *text, int frame, char **file, char **chan
     return wo_fail(error, WO_ERR_NOMEM, "out of memory for channel names");
 }
 
-static wo_status grey_to_rgb(wo_image *image, wo_error *error)
+/* Component c from a pixel that has many. */
+static float component(const float *pixel, int many, int c)
 {
-    const size_t pixels =
-        (size_t)wo_rect_width(image->bounds) * (size_t)wo_rect_height(image->bounds);
-    float *const rgb = malloc(pixels * 3 * sizeof *rgb);
-    if (!rgb)
+    if (c == 3)
+        return many == 4 ? pixel[3] : 1;
+    return pixel[many > 2 ? c : 0];
+}
+
+wo_status wo_picture_components(wo_image *image, int components, wo_error *error)
+{
+    const int many = image->components;
+    if (many == components)
+        return WO_OK;
+    const size_t count = (size_t)components, row = (size_t)wo_rect_width(image->bounds);
+    const size_t pixels = row * (size_t)wo_rect_height(image->bounds);
+    float *const made = malloc(pixels * count * sizeof *made);
+    if (!made)
         return wo_fail(error, WO_ERR_NOMEM, "out of memory for a picture of %zu pixels", pixels);
     for (size_t i = 0; i < pixels; i++)
-        rgb[3 * i] = rgb[3 * i + 1] = rgb[3 * i + 2] = image->data[i];
+        for (size_t c = 0; c < count; c++)
+            made[i * count + c] = component(image->data + i * (size_t)many, many, (int)c);
     free(image->data);
-    image->data = rgb;
-    image->components = 3;
-    image->row_bytes = (ptrdiff_t)wo_rect_width(image->bounds) * 3 * (ptrdiff_t)sizeof(float);
+    image->data = made;
+    image->components = components;
+    image->row_bytes = (ptrdiff_t)(row * count * sizeof *made);
     return WO_OK;
 }
 
@@ -69,7 +81,7 @@ wo_status wo_picture_linear(const wo_colour *colour, const wo_io_file *file, siz
     const bool straight = said && said->type != WO_IO_TEXT && said->number != 0;
     const bool silent = strcmp(file->format, "dpx") == 0 || strcmp(file->format, "cineon") == 0;
     if (image->components == 1)
-        WO_TRY(grey_to_rgb(image, error));
+        WO_TRY(wo_picture_components(image, 3, error));
     if (!straight && !silent)
         return wo_colour_convert(colour, space, WO_COLOUR_WORKING, image, error);
     WO_TRY(wo_colour_convert_straight(colour, space, WO_COLOUR_WORKING, image, error));

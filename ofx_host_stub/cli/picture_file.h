@@ -25,6 +25,11 @@ WO_NODISCARD wo_status wo_picture_linear(const wo_colour *colour, const wo_io_fi
                                          size_t part, const char *space, wo_image *image,
                                          wo_error *error);
 
+/* Gives an image so many components, 1, 3 or 4: grey is repeated, alpha that is missing is 1; one
+   component of colours is the first, and colour without alpha is what lies over black. The data is
+   malloc-ed and without gaps; it may move. */
+WO_NODISCARD wo_status wo_picture_components(wo_image *image, int components, wo_error *error);
+
 /* Reads "FILE[:CHANNELS]" as linear light; space NULL: by the file's rules. image->data is
    malloc-ed. */
 WO_NODISCARD wo_status wo_picture_load(const wo_colour *colour, const char *space, const char *text,

@@ -173,6 +173,11 @@ wo_status wo_input_make_linear(wo_input *input, wo_input_picture *p, wo_error *e
     if (!wo_input_is_numbers(input, p))
         WO_TRY(
             wo_picture_linear(input->inputs->colour, p->file, p->part, p->space, &p->image, error));
+    /* one frame may be grey, another have alpha: the clip is what its first was */
+    if (input->components) {
+        p->narrowed = p->image.components > input->components;
+        WO_TRY(wo_picture_components(&p->image, input->components, error));
+    }
     WO_TRY(fit(input, p, error));
     p->linear = true;
     return WO_OK;
@@ -411,6 +416,11 @@ bool wo_input_is_held(const wo_input *input, int frame, int *held)
 {
     *held = input->present->frame;
     return input->sequence && input->inputs->missing == WO_MISSING_HOLD && *held != frame;
+}
+
+bool wo_input_is_narrowed(const wo_input *input)
+{
+    return input->present->narrowed;
 }
 
 const char *wo_input_found(const wo_input *input)

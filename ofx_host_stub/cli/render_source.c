@@ -199,6 +199,7 @@ wo_host_source wo_input_source(wo_input *input, const wo_host_project *project)
     source.components = input->present->image.components;
     if (!wo_input_is_raw(input) && source.components == 1)
         source.components = 3; /* what make_linear gives */
+    input->components = source.components;
     source.alpha = source.components == 4 ? WO_HOST_PREMULTIPLIED : WO_HOST_OPAQUE;
     source.pixel_aspect = wo_input_aspect(input, input->present);
     source.frame_rate = rate_of(input->present, project->frame_rate);

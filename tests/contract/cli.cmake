@@ -39,6 +39,10 @@ set_tests_properties(contract.camera PROPERTIES TIMEOUT 600 ENVIRONMENT "${cli_e
 add_executable(exr_change ${CMAKE_CURRENT_LIST_DIR}/exr_change.c)
 target_include_directories(exr_change PRIVATE ${PROJECT_SOURCE_DIR}/ofx_host_stub)
 target_link_libraries(exr_change PRIVATE wo_bridge wo_base wo_options m)
+add_test(NAME contract.files
+    COMMAND ${CMAKE_CURRENT_LIST_DIR}/files.sh $<TARGET_FILE:wideopen> $<TARGET_FILE:json_check>
+            ${CMAKE_CURRENT_BINARY_DIR}/files_work)
+set_tests_properties(contract.files PROPERTIES TIMEOUT 300 ENVIRONMENT "${cli_environment}")
 add_test(NAME contract.clips
     COMMAND ${CMAKE_CURRENT_LIST_DIR}/clips.sh $<TARGET_FILE:wideopen> $<TARGET_FILE:json_check>
             ${CMAKE_CURRENT_BINARY_DIR}/clips_work $<TARGET_FILE:exr_change>)

@@ -1,6 +1,6 @@
 # Unit tests of the bridges to foreign libraries.
 find_package(Threads REQUIRED)
-foreach(name IN ITEMS image_io image_formats image_faults image_mutants image_memory image_save colour picture)
+foreach(name IN ITEMS image_io image_formats image_faults image_mutants image_memory image_readers image_save colour picture)
     add_executable(test_${name} ${CMAKE_CURRENT_LIST_DIR}/test_${name}.c)
     target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR})
     target_link_libraries(test_${name} PRIVATE wo_bridge wo_options cmocka Threads::Threads m)
