@@ -228,18 +228,29 @@ static bool write_whole(int file, const char *bytes, size_t count)
     return true;
 }
 
+/* A new file with a name of its own, which others may read as the user's files are; -1 = none. */
+static int create(const wo_host *host, char *path, size_t size)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    const int used =
+        snprintf(path, size, "%s/.wideopen-%lx-%llx-%lx", host->cache, (unsigned long)getpid(),
+                 (unsigned long long)now.tv_sec, (unsigned long)now.tv_nsec);
+    if (used < 0 || (size_t)used >= size) {
+        errno = ENAMETOOLONG;
+        return -1;
+    }
+    return open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
+}
+
 /* Under a name of its own first: readers see the old file or the new one, writers do not meet. */
 static bool save(const wo_host *host, const char *path, const text *all)
 {
     char temporary[PATH_MAX];
-    if (snprintf(temporary, sizeof temporary, "%s/.wideopen-XXXXXX", host->cache) >=
-        (int)sizeof temporary)
-        return false;
-    int file = mkstemp(temporary);
+    int file = create(host, temporary, sizeof temporary);
     if (file < 0 && errno == ENOENT) {
         make_folders(host->cache);
-        snprintf(temporary, sizeof temporary, "%s/.wideopen-XXXXXX", host->cache);
-        file = mkstemp(temporary);
+        file = create(host, temporary, sizeof temporary);
     }
     if (file < 0)
         return false;

@@ -349,10 +349,19 @@ static bool fill_plugin(wo_entry *entry)
     return ok;
 }
 
+const char *wo_own_violation(const wo_entry *entry, size_t index)
+{
+    const char *text = wo_host_violation(entry->host, index);
+    const size_t own = strlen(entry->identifier);
+    const bool named =
+        text && strncmp(text, entry->identifier, own) == 0 && strncmp(text + own, ": ", 2) == 0;
+    return named ? text + own + 2 : text;
+}
+
 /* The answer of a plugin that fails; with the breach that it commits, if it does. */
 static void note_failure(wo_entry *entry, const char *what, OfxStatus status, size_t breaches)
 {
-    const char *breach = wo_host_violation(entry->host, breaches);
+    const char *breach = wo_own_violation(entry, breaches);
     wo_note_failure(entry->host, "%s: %s %s: %s%s%s", entry->bundle, entry->identifier, what,
                     wo_ofx_status_text(status), breach ? "; " : "", breach ? breach : "");
 }

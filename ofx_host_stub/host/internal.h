@@ -410,6 +410,8 @@ const char *wo_binary_fault(const char *path);
 /* describe.c */
 WO_NODISCARD bool wo_entry_describe(wo_entry *entry);
 void wo_entry_forget(wo_entry *entry); /* frees what describing made */
+/* A violation without the plugin's own name before it; NULL when there are not so many. */
+const char *wo_own_violation(const wo_entry *entry, size_t index);
 /* scan.c */
 void wo_scan_directory(wo_host *host, const char *directory, bool must_exist);
 void wo_scan_paths(wo_host *host, const char *paths);

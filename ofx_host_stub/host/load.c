@@ -309,8 +309,8 @@ static bool keep(wo_host *host, wo_binary *binary, wo_entry *entry, size_t breac
     if (entries)
         host->entries = entries;
     const size_t now = wo_host_violation_count(host);
-    if (!entries || !wo_catalogue_take(binary, entry, now - breaches,
-                                       now > breaches ? wo_host_violation(host, breaches) : ""))
+    const char *first = wo_own_violation(entry, breaches);
+    if (!entries || !wo_catalogue_take(binary, entry, now - breaches, first ? first : ""))
         return false;
     host->entries[host->entry_count++] = entry;
     return true;

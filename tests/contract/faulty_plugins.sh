@@ -72,7 +72,7 @@ says 'failed: .*/LoadCrash.ofx.bundle: crashed (signal 6, .*it said: missing'
 says 'failed: .*/LoadHang.ofx.bundle: was killed .* while it was loaded'
 says 'failed: .*/DescribeHang.ofx.bundle: was killed .*DescribeHang.Middle described itself'
 says 'failed: .*/CountMany.ofx.bundle: '
-says '^wideopen: org.wideopen.test.DescribeWrong.Middle breaks the rules of OpenFX 2 times: '
+says '^wideopen: org.wideopen.test.DescribeWrong.Middle breaks the rules of OpenFX 2 times: OfxActionDescribe: '
 checks=$((checks + 1))
 [ "$(grep -c DescribeWrong stderr)" -eq 1 ] || fail "more than a line for a plugin"
 # No cell reaches into the next.

@@ -109,6 +109,11 @@ static void what_is_known_is_not_asked_again(void **state)
     assert_int_equal(access(apart_path("deep"), F_OK), -1);
     assert_true(finds_good(good, NULL, cache));
     read_file(only_file(cache), first, sizeof first);
+    struct stat status; /* a cache may be shared */
+    const mode_t mask = umask(022);
+    (void)umask(mask);
+    assert_int_equal(stat(only_file(cache), &status), 0);
+    assert_int_equal(status.st_mode & 0777, 0666 & ~mask);
     assert_true(finds_good(good, nobody, cache));
     assert_true(finds_good(good, NULL, cache));
     read_file(only_file(cache), second, sizeof second);
