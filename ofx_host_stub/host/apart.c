@@ -36,6 +36,7 @@ typedef struct job {
     char name[200];
     bool ended;
     const char *killed; /* why, or NULL */
+    bool gone;          /* its number may be another's by now */
     int restarts;
     int64_t silence, total; /* limits, in milliseconds of the clock */
     char line[WO_LINE_MAX];
@@ -168,6 +169,7 @@ static void begin(job *it)
     it->name[0] = '\0';
     it->ended = false;
     it->killed = NULL;
+    it->gone = false;
     it->line_used = it->said_used = 0;
     it->silence = now_ms() + patience(it);
     it->total = now_ms() + 10 * patience(it);
@@ -185,6 +187,8 @@ static void kill_it(job *it, const char *why)
     if (it->killed)
         return;
     it->killed = why;
+    if (it->gone)
+        return;
     kill(-it->pid, SIGKILL);
     kill(it->pid, SIGKILL);
     it->silence = it->total = now_ms() + BURIAL_MS;
@@ -313,6 +317,7 @@ static void write_failure(job *it, int status, bool known)
 /* The process is gone. known: *status is what waitpid said. */
 static void finish(job *it, int status, bool known)
 {
+    it->gone = true;
     for (int i = 0; i < 64 && (it->results >= 0 || it->words >= 0); i++)
         listen(it); /* what stands in the pipes yet */
     close_end(&it->results);
@@ -358,22 +363,23 @@ static void look_after(job *it)
     kill_it(it, texts[now >= it->silence]);
 }
 
-static bool any_sleep(job *jobs, bool *closing)
+/* Sleeps until there is something to read, or for a moment. */
+static void wait_for_news(const job *jobs)
 {
     struct pollfd ends[2 * AT_ONCE];
     nfds_t count = 0;
-    *closing = false;
+    bool closing = false;
     for (int i = 0; i < AT_ONCE; i++) {
         if (!jobs[i].binary)
             continue;
         if (jobs[i].results >= 0)
             ends[count++] = (struct pollfd){.fd = jobs[i].results, .events = POLLIN};
         else
-            *closing = true; /* it will be gone in a moment */
+            closing = true; /* it will be gone in a moment */
         if (jobs[i].words >= 0)
             ends[count++] = (struct pollfd){.fd = jobs[i].words, .events = POLLIN};
     }
-    return poll(ends, count, *closing ? 2 : 50) >= 0;
+    (void)poll(ends, count, closing ? 2 : 50);
 }
 
 wo_status wo_apart_describe(wo_host *host, wo_binary *const *binaries, size_t count,
@@ -386,7 +392,7 @@ wo_status wo_apart_describe(wo_host *host, wo_binary *const *binaries, size_t co
     job *jobs = calloc(AT_ONCE, sizeof *jobs);
     if (!jobs)
         return wo_fail(error, WO_ERR_NOMEM, "no memory to describe plugins");
-    bool stop = false, closing;
+    bool stop = false;
     do {
         stop = stop || (config->aborted && config->aborted(config->user));
         running = 0;
@@ -402,7 +408,7 @@ wo_status wo_apart_describe(wo_host *host, wo_binary *const *binaries, size_t co
                 kill_it(it, "was stopped");
             }
         }
-        (void)any_sleep(jobs, &closing);
+        wait_for_news(jobs);
         for (size_t i = 0; i < AT_ONCE; i++) {
             if (jobs[i].binary)
                 listen(&jobs[i]);

@@ -118,7 +118,11 @@ static wo_status learn(wo_host *host, wo_binary *const *binaries, size_t count, 
             apart[missing++] = binary;
     }
     const wo_status status = wo_apart_describe(host, apart, missing, error);
-    for (size_t i = 0; i < missing && status == WO_OK; i++) {
+    for (size_t i = 0; i < missing; i++) {
+        if (status != WO_OK) {
+            wo_catalogue_clear(&apart[i]->catalogue); /* what there is of it is half */
+            continue;
+        }
         apart[i]->known = true;
         tell(host, apart[i]);
         wo_cache_write(host, apart[i]);

@@ -199,6 +199,18 @@ static void surveys_can_be_stopped(void **state)
         wo_host_destroy(&host);
         assert_int_equal(waitpid(-1, NULL, WNOHANG), -1);
     }
+    /* What was half known is not kept. */
+    wo_host *host = apart_host_with(configs[1], faulty, NULL);
+    calls = 0;
+    wo_error error = {0};
+    assert_int_equal(wo_host_survey(host, &error), WO_ABORTED);
+    calls = -1000000;
+    ok(wo_host_survey(host, &ok_error));
+    assert_int_equal(wo_host_failure_count(host), 10);
+    assert_has(host, "DescribeCrash", "F-L");
+    for (size_t i = 0; i < wo_host_note_count(host); i++)
+        assert_null(strstr(wo_host_note(host, i), "found before"));
+    wo_host_destroy(&host);
 }
 
 static void describers_may_be_anything(void **state)
