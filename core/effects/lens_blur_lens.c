@@ -105,7 +105,7 @@ static wo_status make_table_lens(wo_plan *plan, wo_error *error)
     wo_bands_make(wavelengths, &bands);
     const wo_lens_choice choice = {
         .kind = (wo_lens_kind)p->lens,
-        .design = wo_lens_name_at((size_t)p->lens_design),
+        .design = wo_lens_design(p->lens_design),
         .diagram = (wo_diagram_preset)p->lens_diagram,
         .residual = p->lens_residual,
         .glass = p->lens_glass,

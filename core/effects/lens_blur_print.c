@@ -82,7 +82,7 @@ int wo_lens_blur_plan_print(const wo_plan *plan, char *buffer, size_t size)
         const wo_table_facts *f = &plan->facts;
         const bool real =
             plan->params.lens == WO_LENS_PRESCRIPTION || plan->params.lens == WO_LENS_SEIDEL;
-        const char *design = real ? wo_lens_name_at((size_t)plan->params.lens_design) : "";
+        const char *design = real ? wo_lens_design(plan->params.lens_design) : "";
         add(&p,
             "            %s%s%s, f/%.4g reached; %d wavelengths (colours part by %.2f px), "
             "aberrations "

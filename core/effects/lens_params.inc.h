@@ -273,8 +273,8 @@
      .label = "Design",
      .unit = "",
      .group = "lensModel",
-     .help = "The prescription of a real design; wideopen lens shows them. Its own f-number is its "
-             "fastest.",
+     .help = "The prescription of a real design; wideopen lens shows them, standard is "
+             "dgauss_codev_100_f2. Its own f-number is its fastest.",
      .type = WO_PARAM_CHOICE,
      .offset = FIELD(lens_design),
      .initial = {WO_LENS_DESIGN_DEFAULT},

@@ -6,6 +6,17 @@
 #include <stdio.h>
 #include <string.h>
 
+#define DESIGN_KEY(key, name)  key,
+#define DESIGN_NAME(key, name) name,
+const char *const wo_lens_names[] = {WO_LENS_DESIGN_LIST(DESIGN_KEY) NULL};
+static const char *const designs[] = {WO_LENS_DESIGN_LIST(DESIGN_NAME)};
+_Static_assert(WO_COUNT(designs) == WO_LENS_DESIGNS, "as many rows as designs");
+
+const char *wo_lens_design(int place)
+{
+    return place >= 0 && place < WO_LENS_DESIGNS ? designs[place] : NULL;
+}
+
 static bool zonal_ray(const void *self, double h, const double u[2], double nm, wo_model_ray *ray)
 {
     const wo_zonal_lens *lens = self;

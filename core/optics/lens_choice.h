@@ -29,9 +29,47 @@ typedef enum wo_lens_kind {
     X("fluorite", "Fluorite", "CAF2")                                                              \
     X("lanthanum", "Lanthanum", "N-LAK9")
 
-/* Names of the designs that come with the library, for lists; ends with NULL. */
+/* The designs that effects offer: those of the library that can be put behind a picture. Projects
+   hold a design by its key or by its place in this list, whichever the host keeps, so both mean the
+   same for ever: a new design goes to the end, wherever its name sorts, and a row whose design
+   cannot be offered is given to one that can. (Row 0 was one with cylinders, always refused.)
+   Key; name for wo_lens_find. */
+#define WO_LENS_DESIGN_LIST(X)                                                                     \
+    X("standard", "dgauss_codev_100_f2")                                                           \
+    X("asphere_edmund_54", "asphere_edmund_54")                                                    \
+    X("biotar_zeiss_100_f14", "biotar_zeiss_100_f14")                                              \
+    X("cooke_triplet_50_f5", "cooke_triplet_50_f5")                                                \
+    X("dgauss_angenieux_100_f11", "dgauss_angenieux_100_f11")                                      \
+    X("dgauss_codev_100_f2", "dgauss_codev_100_f2")                                                \
+    X("dgauss_tronnier_100_f2", "dgauss_tronnier_100_f2")                                          \
+    X("dgauss_werfel_100_f125", "dgauss_werfel_100_f125")                                          \
+    X("doublet_edmund_49291", "doublet_edmund_49291")                                              \
+    X("doublet_laikin_20in", "doublet_laikin_20in")                                                \
+    X("doublet_thorlabs_ac508_250a", "doublet_thorlabs_ac508_250a")                                \
+    X("fisheye_laikin_170", "fisheye_laikin_170")                                                  \
+    X("masterprime_zeiss_asph", "masterprime_zeiss_asph")                                          \
+    X("petzval_kodak_100", "petzval_kodak_100")                                                    \
+    X("petzval_laikin_f14", "petzval_laikin_f14")                                                  \
+    X("planar_rudolph_583336", "planar_rudolph_583336")                                            \
+    X("prime_us8427765_asph", "prime_us8427765_asph")                                              \
+    X("retrofocus_nikon_100_f28", "retrofocus_nikon_100_f28")                                      \
+    X("singlet_biconvex_thorlabs_50", "singlet_biconvex_thorlabs_50")                              \
+    X("singlet_pcx_edmund_49847", "singlet_pcx_edmund_49847")                                      \
+    X("telephoto_laikin_f56", "telephoto_laikin_f56")                                              \
+    X("telephoto_sigler_250", "telephoto_sigler_250")                                              \
+    X("tessar_brendel_100_f28", "tessar_brendel_100_f28")                                          \
+    X("tessar_laikin_f45", "tessar_laikin_f45")                                                    \
+    X("triplet_sasian_50_f4", "triplet_sasian_50_f4")                                              \
+    X("wide_laikin_100", "wide_laikin_100")                                                        \
+    X("wide_nakamura_100", "wide_nakamura_100")                                                    \
+    X("zoom_canon_70_200_at_194", "zoom_canon_70_200_at_194")                                      \
+    X("zoom_canon_70_200_at_72", "zoom_canon_70_200_at_72")                                        \
+    X("zoom_itoh_100_145_at_100", "zoom_itoh_100_145_at_100")
+
 enum { WO_LENS_DESIGNS = 30, WO_LENS_DESIGN_DEFAULT = 5 };
-extern const char *const wo_lens_names[];
+extern const char *const wo_lens_names[]; /* keys; ends with NULL */
+/* Name for wo_lens_find of the design in this place; NULL: there is none. */
+const char *wo_lens_design(int place);
 
 typedef struct wo_lens_choice {
     wo_lens_kind kind;

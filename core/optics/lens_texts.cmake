@@ -3,7 +3,6 @@
 string(REPLACE "|" ";" files "${FILES}")
 set(texts "")
 set(rows "")
-set(names "")
 set(number 0)
 foreach(file IN LISTS files)
     get_filename_component(name ${file} NAME_WE)
@@ -14,12 +13,10 @@ foreach(file IN LISTS files)
     string(REPLACE "\n" "\\n\"\n    \"" text "${text}")
     string(APPEND texts "static const char text_${number}[] =\n    \"${text}\";\n\n")
     string(APPEND rows "    {\"${name}\", text_${number}},\n")
-    string(APPEND names "    \"${name}\",\n")
     math(EXPR number "${number} + 1")
 endforeach()
 file(WRITE ${OUTPUT}
     "/* Made by lens_texts.cmake from footage/lenses. */\n"
-    "#include \"optics/lens_choice.h\"\n#include \"optics/prescription_private.h\"\n\n"
+    "#include \"optics/prescription_private.h\"\n\n"
     "${texts}const wo_lens_text wo_lens_texts[] = {\n${rows}};\n"
-    "const size_t wo_lens_text_count = WO_COUNT(wo_lens_texts);\n\n"
-    "const char *const wo_lens_names[] = {\n${names}    NULL,\n};\n")
+    "const size_t wo_lens_text_count = WO_COUNT(wo_lens_texts);\n")

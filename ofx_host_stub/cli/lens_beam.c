@@ -8,47 +8,59 @@
 
 /* ----------------------------------------------------------------------------- one ray */
 
+/* Rays of an object point, in the coordinates of a bundle; or from a point of the sensor, height mm
+   from the axis, in those of the plane of the last vertex, against the light. */
 typedef struct beam_of {
     const wo_lens_view *view;
     wo_meridian meridian;
-    double field;
+    bool from_sensor;
+    double field, height;
 } beam_of;
 
-/* A ray of the bundle, behind the lens, with where it crossed the iris and, seen along the meridian
-   and across it, where it lands. */
-typedef struct probe_ray {
-    bool passed;
-    double cos_in;  /* of its angle in front of the lens */
-    double stop[2]; /* along, across */
-    double landed[2];
-} probe_ray;
+static void leave_sensor(const beam_of *b, double px, double py, double p[3], double d[3])
+{
+    const wo_lens_view *const view = b->view;
+    const bool in_x = b->meridian == WO_MERIDIAN_X;
+    const double to_lens = view->image > 0 ? -view->image : fmax(-view->image, 1e-9);
+    p[0] = px;
+    p[1] = py;
+    p[2] = view->system.z_last;
+    d[0] = px - (in_x ? b->height : 0);
+    d[1] = py - (in_x ? 0 : b->height);
+    d[2] = to_lens;
+    const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    for (int k = 0; k < 3; k++)
+        d[k] *= (d[2] < 0 ? 1 : -1) / length;
+}
 
-static probe_ray probe(const beam_of *b, double along, double across, unsigned flags)
+/* Whether the ray passes; where it crosses the iris, along and across; its squared cosine where it
+   sets off. */
+static bool probe(const beam_of *b, double along, double across, unsigned flags, double stop[2],
+                  double *cos2)
 {
     const bool in_x = b->meridian == WO_MERIDIAN_X;
-    double p[3], d[3], stop[2] = {NAN, NAN};
+    const double px = in_x ? along : across, py = in_x ? across : along;
+    double p[3], d[3], x = NAN, y = NAN;
     uint8_t outcome = 0;
-    wo_lens_aim_at(b->view, b->meridian, b->field, in_x ? along : across, in_x ? across : along, p,
-                   d);
-    probe_ray r = {.cos_in = d[2]};
+    if (b->from_sensor)
+        leave_sensor(b, px, py, p, d);
+    else
+        wo_lens_aim_at(b->view, b->meridian, b->field, px, py, p, d);
+    *cos2 = d[2] * d[2];
     const wo_system *const system = &b->view->system;
     const wo_rays rays = {&p[0], &p[1], &p[2], &d[0], &d[1], &d[2], NULL, &outcome};
-    wo_system_trace(system, 0, system->count - 1, false, flags, &rays, 1, &stop[0], &stop[1]);
-    const double t = (wo_lens_sensor_z(b->view) - p[2]) / d[2];
-    r.passed = outcome == WO_RAY_PASSED;
-    for (int k = 0; k < 2; k++) {
-        const int axis = (k == 0) == in_x ? 0 : 1;
-        r.stop[k] = stop[axis];
-        r.landed[k] = p[axis] + t * d[axis];
-    }
-    return r;
+    wo_system_trace(system, 0, system->count - 1, b->from_sensor, flags, &rays, 1, &x, &y);
+    stop[0] = in_x ? x : y;
+    stop[1] = in_x ? y : x;
+    return outcome == WO_RAY_PASSED;
 }
 
 static const unsigned whole = WO_TRACE_CLIP | WO_TRACE_IRIS;
 
 static bool passes(const beam_of *b, double along, double across)
 {
-    return probe(b, along, across, whole).passed;
+    double stop[2], cos2;
+    return probe(b, along, across, whole, stop, &cos2);
 }
 
 /* ------------------------------------------------------------------------------- span */
@@ -80,25 +92,17 @@ static bool scan(const beam_of *b, const wo_lens_span *s, wo_lens_span *found, b
     return any;
 }
 
-/* Begins with what passes in the meridian, and widens it where rays pass at the border. */
-bool wo_lens_find_span(const wo_lens_view *view, wo_meridian meridian, double field,
-                       wo_lens_span *span)
+/* Begins with what passes in the meridian from low to high, and widens it where rays pass at the
+   border. shape: how much wider the beam is across than along, about. */
+static bool span_from(const beam_of *b, double low, double high, double shape, wo_lens_span *span)
 {
     enum { TURNS = 8 };
-    double low, high, chief;
-    if (!wo_lens_fan(view, meridian, field, WO_TRACE_CLIP, &low, &high, &chief) &&
-        !wo_lens_fan(view, meridian, field, 0, &low, &high, &chief))
-        return false;
-    const beam_of b = {view, meridian, field};
-    const bool in_x = meridian == WO_MERIDIAN_X;
-    const double shape = view->first[in_x ? 1 : 0].ep_d / view->first[in_x ? 0 : 1].ep_d;
     const double half = fmax((high - low) / 2, 1e-9);
-    wo_lens_span s = {low - 0.1 * half, high + 0.1 * half,
-                      1.2 * half * (isfinite(shape) ? fmax(1, shape) : 1)};
-    *span = (wo_lens_span){0, 0, 0};
+    wo_lens_span s = {low - 0.1 * half, high + 0.1 * half, 1.2 * half * shape};
     bool touching[3] = {true, true, true}, any = false;
+    *span = (wo_lens_span){0, 0, 0};
     for (int i = 0; i < TURNS; i++) {
-        any = scan(&b, &s, span, touching);
+        any = scan(b, &s, span, touching);
         if (!any || !(touching[0] || touching[1] || touching[2]))
             break;
         const double wide = (s.high - s.low) / 4;
@@ -107,6 +111,51 @@ bool wo_lens_find_span(const wo_lens_view *view, wo_meridian meridian, double fi
         s.across *= touching[2] ? 1.6 : 1;
     }
     return any;
+}
+
+bool wo_lens_find_span(const wo_lens_view *view, wo_meridian meridian, double field,
+                       wo_lens_span *span)
+{
+    double low, high, chief;
+    if (!wo_lens_fan(view, meridian, field, WO_TRACE_CLIP, &low, &high, &chief) &&
+        !wo_lens_fan(view, meridian, field, 0, &low, &high, &chief))
+        return false;
+    const beam_of b = {.view = view, .meridian = meridian, .field = field};
+    const bool in_x = meridian == WO_MERIDIAN_X;
+    const double shape = view->first[in_x ? 1 : 0].ep_d / view->first[in_x ? 0 : 1].ep_d;
+    return span_from(&b, low, high, isfinite(shape) ? fmax(1, shape) : 1, span);
+}
+
+/* Of every ray from the sensor point that meets the clear last surface, the largest coordinate. */
+static double rear_reach(const beam_of *b)
+{
+    const wo_lens_view *const view = b->view;
+    const wo_surface *const last = &view->lens.surface[view->lens.count - 1];
+    double semi = last->semi_aperture;
+    if (!(semi > 0)) {
+        semi = isfinite(view->first[1].xp_d) ? view->first[1].xp_d / 2 : 0;
+        for (int i = 0; i < view->lens.count; i++)
+            semi = fmax(semi, view->lens.surface[i].semi_aperture);
+        semi = 1.5 * semi + fabs(b->height);
+    }
+    const double sag = fabs(wo_lens_sag(last, b->meridian, semi));
+    const double far = fmax(fabs(view->image), 1e-3 * semi);
+    return 1.02 * semi + (isnan(sag) ? semi : sag) * (semi + fabs(b->height)) / far;
+}
+
+static bool span_of_sensor(const beam_of *b, wo_lens_span *span)
+{
+    enum { PROBES = 801 };
+    const double reach = rear_reach(b), step = 2 * reach / (PROBES - 1);
+    double low = NAN, high = NAN;
+    for (int i = 0; i < PROBES; i++) {
+        const double along = -reach + step * i;
+        if (!passes(b, along, 0))
+            continue;
+        low = isnan(low) ? along - step : low;
+        high = along + step;
+    }
+    return !isnan(low) && span_from(b, low, high, 1, span);
 }
 
 /* ------------------------------------------------------------------------------- beam */
@@ -134,7 +183,7 @@ static double border(const beam_of *b, double across, double in, double out)
 }
 
 typedef struct sums {
-    double flux, iris, moment;
+    double light, iris;
 } sums;
 
 /* The part of a row between two borders. */
@@ -144,20 +193,18 @@ static void add_part(const beam_of *b, double across, double from, double to, do
     const double width = to - from, step = 1e-4 * width;
     for (int i = 0; i < NODES && width > 0; i++) {
         const double along = from + node[i] * width, part = weight * node_weight[i] * width;
-        const probe_ray r = probe(b, along, across, 0);
-        const probe_ray a1 = probe(b, along - step, across, 0);
-        const probe_ray a2 = probe(b, along + step, across, 0);
-        const probe_ray c1 = probe(b, along, across - step, 0);
-        const probe_ray c2 = probe(b, along, across + step, 0);
-        const double jacobian = ((a2.stop[0] - a1.stop[0]) * (c2.stop[1] - c1.stop[1]) -
-                                 (a2.stop[1] - a1.stop[1]) * (c2.stop[0] - c1.stop[0])) /
-                                (4 * step * step);
-        const double c = r.cos_in * r.cos_in;
-        const double light = part * (b->view->vf > 0 ? c * c : 1);
-        if (!r.passed || !isfinite(jacobian))
+        double here[2], a1[2], a2[2], c1[2], c2[2], cos2, ignored;
+        const bool passed = probe(b, along, across, 0, here, &cos2) &&
+                            probe(b, along - step, across, 0, a1, &ignored) &&
+                            probe(b, along + step, across, 0, a2, &ignored) &&
+                            probe(b, along, across - step, 0, c1, &ignored) &&
+                            probe(b, along, across + step, 0, c2, &ignored);
+        if (!passed)
             continue;
-        sum->flux += light;
-        sum->moment += light * r.landed[0];
+        const double jacobian =
+            ((a2[0] - a1[0]) * (c2[1] - c1[1]) - (a2[1] - a1[1]) * (c2[0] - c1[0])) /
+            (4 * step * step);
+        sum->light += part * cos2 * cos2;
         sum->iris += part * fabs(jacobian);
     }
 }
@@ -187,13 +234,14 @@ static bool row_passes(const beam_of *b, const wo_lens_span *s, double across)
     return false;
 }
 
-bool wo_lens_beam_make(const wo_lens_view *view, double field, wo_lens_beam *beam)
+bool wo_lens_beam_make(const wo_lens_view *view, double height, wo_lens_beam *beam)
 {
-    const beam_of b = {view, view->across, field};
+    const beam_of b = {
+        .view = view, .meridian = view->across, .from_sensor = true, .height = height};
     wo_lens_span s;
-    sums sum = {0, 0, 0};
-    *beam = (wo_lens_beam){0};
-    if (!wo_lens_find_span(view, view->across, field, &s))
+    sums sum = {0, 0};
+    *beam = (wo_lens_beam){0, 0};
+    if (!isfinite(height) || !span_of_sensor(&b, &s))
         return false;
     double in = 0, out = s.across;
     for (int i = 0; i < 14; i++) {
@@ -208,6 +256,7 @@ bool wo_lens_beam_make(const wo_lens_view *view, double field, wo_lens_beam *bea
         const double angle = (i + 0.5) / ROWS * (PI / 2);
         add_row(&b, &s, in * sin(angle), 2 * in * cos(angle) * (PI / 2) / ROWS, &sum);
     }
-    *beam = (wo_lens_beam){sum.flux, sum.iris, sum.flux > 0 ? sum.moment / sum.flux : NAN};
-    return sum.flux > 0;
+    /* Solid angle times cosine: dA cos^4 / distance^2. */
+    *beam = (wo_lens_beam){sum.light / (view->image * view->image), sum.iris};
+    return sum.light > 0;
 }

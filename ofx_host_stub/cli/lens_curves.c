@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright the WideOpen authors */
 #include "lens_curves.h"
+#include "lens_view_private.h"
 
 #include <math.h>
 
@@ -54,57 +55,27 @@ void wo_lens_aberration_make(const wo_lens_view *view, int zones, wo_lens_aberra
 
 /* -------------------------------------------------------------------- illumination, distortion */
 
-/* How fast the image moves across the meridian as the object does, mm per radian, by the ray
-   through the middle of the iris. */
-static double sideways(const wo_lens_view *view, double field, double height)
+static bool is_dark(const wo_lens_view *view, double field)
 {
-    if (!view->anamorphic)
-        return field == 0 ? NAN : height / sin(field * RADIANS);
-    return wo_lens_chief_sideways(view, view->across, field);
+    wo_lens_span span;
+    return !wo_lens_find_span(view, view->across, field, &span);
 }
 
-/* Middle of the light, and NAN where none passes. */
-static double height_of(const wo_lens_view *view, double field)
-{
-    wo_lens_beam beam;
-    return wo_lens_beam_make(view, field, &beam) ? beam.height : NAN;
-}
-
-/* Change of height by the angle, mm per radian, from what is known beside. */
-static double rate(double before, double here, double after, double step)
-{
-    if (!isfinite(before) || !isfinite(after))
-        return isfinite(after) ? (after - here) / step : (here - before) / step;
-    return (after - before) / (2 * step);
-}
-
+/* At the place where the chief ray lands. */
 static void illumination(const wo_lens_view *view, wo_lens_field_curves *out)
 {
-    const double step = view->half_field / (2 * (WO_LENS_FIELD_STEPS - 1)) * RADIANS;
-    const double tiny = 1e-3 * step;
     const double iris = view->lens.surface[view->lens.stop].semi_aperture;
-    const double focal = height_of(view, tiny / RADIANS) / tiny;
-    const double beside = view->anamorphic ? sideways(view, 0, 0) : focal;
-    double axis = NAN, before = NAN;
+    const double *const height = out->height[view->across == WO_MERIDIAN_X ? 1 : 0];
+    double axis = NAN;
     for (int i = 0; i < WO_LENS_FIELD_STEPS; i++) {
-        const double field = out->field[i], angle = field * RADIANS;
-        const double next = field + step / RADIANS;
-        const bool visible = !(view->vf > 0) || next < WO_LENS_PLANE_FIELD;
-        const double after = visible ? height_of(view, next) : NAN;
         wo_lens_beam beam;
-        out->lit[i] = out->illumination[i] = 0;
-        if (wo_lens_beam_make(view, field, &beam)) {
-            const double along = i == 0 ? focal : rate(before, beam.height, after, step);
-            const double across = i == 0 ? beside : sideways(view, field, beam.height);
-            /* Of a near object the plane is even, whose parts are seen smaller farther out; the
-               beam's flux is by its area then. */
-            const double part = view->vf > 0 ? pow(cos(angle), -3) : 1;
-            const double light = beam.flux * part / fabs(along * across);
-            axis = i == 0 ? light : axis;
-            out->lit[i] = beam.iris / (3.14159265358979323846 * iris * iris);
-            out->illumination[i] = light / axis;
-        }
-        before = after;
+        if (is_dark(view, out->field[i]))
+            beam = (wo_lens_beam){0, 0};
+        else if (!wo_lens_beam_make(view, height[i], &beam) && isnan(height[i]))
+            beam = (wo_lens_beam){NAN, NAN};
+        axis = i == 0 ? beam.light : axis;
+        out->lit[i] = beam.iris / (3.14159265358979323846 * iris * iris);
+        out->illumination[i] = beam.light / axis;
     }
 }
 
@@ -129,10 +100,10 @@ void wo_lens_field_curves_make(const wo_lens_view *view, wo_lens_field_curves *o
                                   .has = {true, view->anamorphic}};
     for (int i = 0; i < WO_LENS_FIELD_STEPS; i++)
         out->field[i] = view->half_field * i / (WO_LENS_FIELD_STEPS - 1);
-    illumination(view, out);
     for (int m = 0; m < 2; m++)
         if (out->has[m])
             distortion(view, m, out);
+    illumination(view, out);
 }
 
 /* ---------------------------------------------------------------------------- third order */

@@ -27,10 +27,10 @@ void wo_lens_aberration_make(const wo_lens_view *view, int zones, wo_lens_aberra
 /* Over the field, at nm. */
 typedef struct wo_lens_field_curves {
     double field[WO_LENS_FIELD_STEPS];         /* degrees */
-    double lit[WO_LENS_FIELD_STEPS];           /* part of the iris that passes light */
+    double lit[WO_LENS_FIELD_STEPS];           /* part of the iris that place sees */
     double illumination[WO_LENS_FIELD_STEPS];  /* light on the sensor of an even bright scene, in
-                                                  parts of that on the axis: what passes, by the
-                                                  place on the sensor that it is spread over */
+                                                  parts of that on the axis, where the chief ray
+                                                  lands: what that place sees through the lens */
     bool has[2];                               /* in y, in x */
     double height[2][WO_LENS_FIELD_STEPS];     /* mm on the sensor, of the chief ray */
     double distortion[2][WO_LENS_FIELD_STEPS]; /* part that it is higher than the ideal one */

@@ -68,9 +68,11 @@ static double field_of(const wo_lens_view *view)
     wo_lens_beam axis, beam;
     if (!wo_lens_beam_make(view, 0, &axis))
         return 1;
-    for (double field = 45; field > 1; field -= 1)
-        if (wo_lens_beam_make(view, field, &beam) && beam.flux > axis.flux / 3)
+    for (double field = 45; field > 1; field -= 1) {
+        const double height = wo_lens_chief_height(view, &view->system, view->across, field);
+        if (wo_lens_beam_make(view, height, &beam) && beam.light > axis.light / 3)
             return field;
+    }
     return 1;
 }
 
@@ -214,22 +216,41 @@ void wo_lens_trace(const wo_system *system, int first, int last, unsigned flags,
         ray->stop = stop[meridian == WO_MERIDIAN_X ? 0 : 1];
 }
 
-static wo_lens_ray probe(const wo_lens_view *view, wo_meridian meridian, double field, double h,
-                         int last, unsigned flags)
+/* ------------------------------------------------------------------------------- fans */
+
+typedef struct fan {
+    const wo_lens_view *view;
+    wo_meridian meridian;
+    double field, reach;
+} fan;
+
+enum { PROBES = 801 };
+
+static double place(const fan *f, int i, int probes)
 {
-    wo_lens_ray ray = wo_lens_aim(view, meridian, field, h);
-    wo_lens_trace(&view->system, 0, last, flags, meridian, &ray);
+    return f->reach * (2.0 * i / (probes - 1) - 1);
+}
+
+static wo_lens_ray probe(const fan *f, double h, unsigned flags)
+{
+    const wo_system *const system = &f->view->system;
+    wo_lens_ray ray = wo_lens_aim(f->view, f->meridian, f->field, h);
+    wo_lens_trace(system, 0, flags & WO_TRACE_CLIP ? system->count - 1 : system->stop, flags,
+                  f->meridian, &ray);
     return ray;
 }
 
-/* Where passing begins between a height that does not pass and one that does. */
-static double edge(const wo_lens_view *view, wo_meridian meridian, double field, unsigned flags,
-                   double out, double in)
+static bool passes(const fan *f, double h, unsigned flags)
 {
-    const int last = flags & WO_TRACE_CLIP ? view->system.count - 1 : view->system.stop;
-    for (int i = 0; i < 40; i++) {
+    return probe(f, h, flags).outcome == WO_RAY_PASSED;
+}
+
+/* Where passing begins between a height that does not pass and one that does. */
+static double edge(const fan *f, unsigned flags, double out, double in)
+{
+    for (int i = 0; i < 50; i++) {
         const double middle = (out + in) / 2;
-        if (probe(view, meridian, field, middle, last, flags).outcome == WO_RAY_PASSED)
+        if (passes(f, middle, flags))
             in = middle;
         else
             out = middle;
@@ -237,50 +258,97 @@ static double edge(const wo_lens_view *view, wo_meridian meridian, double field,
     return in;
 }
 
-/* Bisects for the ray through the centre of the iris. */
-static double find_chief(const wo_lens_view *view, wo_meridian meridian, double field, double low,
-                         double high)
+/* The ray through the middle of the iris, of those that cross it the way paraxial rays do the one
+   closest to the axis: far out others may get there, near to grazing a surface. */
+static bool find_chief_among(const fan *f, int probes, double *chief)
 {
-    const double side = probe(view, meridian, field, low, view->system.stop, 0).stop;
-    for (int i = 0; i < 50; i++) {
+    const double mag = f->view->first[f->meridian == WO_MERIDIAN_X ? 0 : 1].ep_mag;
+    const double upright = mag > 0 ? 1 : -1;
+    double low = 0, high = 0, before = NAN;
+    bool found = false;
+    for (int i = 0; i < probes; i++) {
+        const wo_lens_ray ray = probe(f, place(f, i, probes), 0);
+        const double now = ray.outcome == WO_RAY_PASSED ? ray.stop * upright : NAN;
+        if (before <= 0 && now > 0 && (!found || fabs(place(f, i, probes)) < fabs(high))) {
+            low = place(f, i - 1, probes);
+            high = place(f, i, probes);
+            found = true;
+        }
+        before = now;
+    }
+    for (int i = 0; i < 60 && found; i++) {
         const double middle = (low + high) / 2;
-        const double stop = probe(view, meridian, field, middle, view->system.stop, 0).stop;
-        if ((stop > 0) == (side > 0))
+        const wo_lens_ray ray = probe(f, middle, 0);
+        if (ray.outcome != WO_RAY_PASSED)
+            return false;
+        if (ray.stop * upright <= 0)
             low = middle;
         else
             high = middle;
     }
-    return (low + high) / 2;
+    *chief = (low + high) / 2;
+    return found;
 }
 
-bool wo_lens_fan(const wo_lens_view *view, wo_meridian meridian, double field, unsigned flags,
-                 double *low, double *high, double *chief)
+/* Of a wide dome the rays that reach the iris at all fill a narrow band. */
+static bool find_chief(const fan *f, double *chief)
 {
-    enum { PROBES = 801 };
-    const double reach = reach_of(view, field), step = 2 * reach / (PROBES - 1);
-    const unsigned wanted = flags | WO_TRACE_IRIS;
-    const int last = wanted & WO_TRACE_CLIP ? view->system.count - 1 : view->system.stop;
+    return find_chief_among(f, PROBES, chief) || find_chief_among(f, 20 * PROBES, chief);
+}
+
+/* From the chief ray to the last that the iris lets through, upwards or downwards. */
+static double rim(const fan *f, double chief, double way)
+{
+    double in = chief, step = f->reach * 1e-5;
+    while (step < f->reach && passes(f, in + way * step, WO_TRACE_IRIS)) {
+        in += way * step;
+        step *= 1.2;
+    }
+    return edge(f, WO_TRACE_IRIS, in + way * step, in);
+}
+
+/* The part of low to high that passes, from its first to its last place. */
+static bool narrow(const fan *f, unsigned flags, double *low, double *high)
+{
+    const double from = *low, step = (*high - from) / (PROBES - 1);
     int begin = -1, end = -1;
     for (int i = 0; i < PROBES; i++) {
-        const double h = -reach + step * i;
-        if (probe(view, meridian, field, h, last, wanted).outcome != WO_RAY_PASSED)
+        if (!passes(f, from + step * i, flags))
             continue;
         begin = begin < 0 ? i : begin;
         end = i;
     }
     if (begin < 0)
         return false;
-    *low = edge(view, meridian, field, wanted, -reach + step * (begin - 1), -reach + step * begin);
-    *high = edge(view, meridian, field, wanted, -reach + step * (end + 1), -reach + step * end);
-    *chief = find_chief(view, meridian, field, *low, *high);
+    *low = begin == 0 ? from : edge(f, flags, from + step * (begin - 1), from + step * begin);
+    if (end < PROBES - 1)
+        *high = edge(f, flags, from + step * (end + 1), from + step * end);
     return true;
+}
+
+bool wo_lens_fan(const wo_lens_view *view, wo_meridian meridian, double field, unsigned flags,
+                 double *low, double *high, double *chief)
+{
+    /* Farther out, too, than the first surface is clear. */
+    const fan f = {view, meridian, field, 1.5 * reach_of(view, field)};
+    const unsigned wanted = flags | WO_TRACE_IRIS;
+    if (find_chief(&f, chief)) {
+        *low = rim(&f, *chief, -1);
+        *high = rim(&f, *chief, 1);
+    } else {
+        *chief = NAN;
+        *low = -f.reach;
+        *high = f.reach;
+    }
+    return (wanted == WO_TRACE_IRIS && !isnan(*chief)) || narrow(&f, wanted, low, high);
 }
 
 double wo_lens_chief_height(const wo_lens_view *view, const wo_system *system, wo_meridian meridian,
                             double field)
 {
-    double low, high, chief;
-    if (!wo_lens_fan(view, meridian, field, 0, &low, &high, &chief))
+    const fan f = {view, meridian, field, 1.5 * reach_of(view, field)};
+    double chief;
+    if (!find_chief(&f, &chief))
         return NAN;
     wo_lens_ray ray = wo_lens_aim(view, meridian, field, chief);
     wo_lens_trace(system, 0, system->count - 1, 0, meridian, &ray);
@@ -288,39 +356,4 @@ double wo_lens_chief_height(const wo_lens_view *view, const wo_system *system, w
     return ray.outcome == WO_RAY_PASSED
                ? ray.p[axis] + (wo_lens_sensor_z(view) - ray.p[2]) * ray.d[axis] / ray.d[2]
                : NAN;
-}
-
-double wo_lens_chief_sideways(const wo_lens_view *view, wo_meridian meridian, double field)
-{
-    enum { HERE, MOVED, TURNED };
-    const bool in_x = meridian == WO_MERIDIAN_X;
-    const int axis = in_x ? 1 : 0;
-    const double move = 1e-3, turn = 1e-5;
-    double low, high, chief, landed[3], at_stop[3];
-    if (!wo_lens_fan(view, meridian, field, 0, &low, &high, &chief))
-        return NAN;
-    double seen = 1; /* the turn, as the object's from the entrance pupil */
-    for (int i = HERE; i <= TURNED; i++) {
-        const double across = i == MOVED ? move : 0;
-        wo_lens_ray ray = {.outcome = WO_RAY_PASSED};
-        wo_lens_aim_at(view, meridian, field, in_x ? chief : across, in_x ? across : chief, ray.p,
-                       ray.d);
-        if (view->vf > 0)
-            seen = (1000 / view->vf - pupil_z(view) + ray.p[2]) * view->vf / 1000;
-        const double length = sqrt(1 + turn * turn);
-        if (i == TURNED) {
-            ray.d[axis] += turn;
-            for (int k = 0; k < 3; k++)
-                ray.d[k] /= length;
-        }
-        wo_lens_trace(&view->system, 0, view->system.count - 1, 0,
-                      in_x ? WO_MERIDIAN_Y : WO_MERIDIAN_X, &ray);
-        if (ray.outcome != WO_RAY_PASSED)
-            return NAN;
-        at_stop[i] = ray.stop;
-        landed[i] = ray.p[axis] + (wo_lens_sensor_z(view) - ray.p[2]) * ray.d[axis] / ray.d[2];
-    }
-    /* As far aside as brings the turned ray back to the middle of the iris. */
-    const double back = (at_stop[TURNED] - at_stop[HERE]) / (at_stop[MOVED] - at_stop[HERE]);
-    return (landed[TURNED] - landed[HERE] - back * (landed[MOVED] - landed[HERE])) / (turn * seen);
 }

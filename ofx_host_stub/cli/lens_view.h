@@ -76,16 +76,15 @@ void wo_bundle_trace(const wo_lens_view *view, const wo_system *system, wo_merid
 void wo_bundle_scatter(wo_bundle *bundle, wo_meridian meridian, int turn);
 void wo_bundle_free(wo_bundle *bundle);
 
-/* What passes of the light of one object point, integrated over the beam to about 1e-4, in the
-   meridian where the field is measured and at nm. */
+/* What a point of the sensor sees through the lens at nm, height mm from the axis in the meridian
+   where the field is measured; integrated over the beam to about 1e-4. */
 typedef struct wo_lens_beam {
-    double flux;   /* mm^2 of the beam's cross-section; for a near object weighted with cos^4 of the
-                      angle of each ray, on the plane of the first vertex */
-    double iris;   /* mm^2 of the iris that it fills */
-    double height; /* mean height of the light on the sensor */
+    double light; /* solid angle weighted with the cosine: light on the sensor of an even bright
+                     scene of radiance 1 */
+    double iris;  /* mm^2 of the iris that it sees */
 } wo_lens_beam;
-/* False: nothing passes. */
-bool wo_lens_beam_make(const wo_lens_view *view, double field, wo_lens_beam *beam) WO_NODISCARD;
+/* False: nothing passes, or height is not finite. */
+bool wo_lens_beam_make(const wo_lens_view *view, double height, wo_lens_beam *beam) WO_NODISCARD;
 
 /* One ray in the plane of the meridian, at coordinate h of the bundle's plane. */
 typedef struct wo_lens_ray {
@@ -98,15 +97,14 @@ void wo_lens_trace(const wo_system *system, int first, int last, unsigned flags,
                    wo_meridian meridian, wo_lens_ray *ray);
 
 /* Heights between which rays of the meridian pass the iris (and, with WO_TRACE_CLIP, everything),
-   and that of the one through its centre. False: there are none. */
+   and that of the one through its centre, whether or not that passes (NAN: none gets there). False:
+   none pass. */
 bool wo_lens_fan(const wo_lens_view *view, wo_meridian meridian, double field, unsigned flags,
                  double *low, double *high, double *chief) WO_NODISCARD;
 
-/* Height of the chief ray on the sensor; NAN when none gets there. */
+/* Height on the sensor of the chief ray, through the middle of the iris, whether or not clear radii
+   stop it; NAN when there is none. */
 double wo_lens_chief_height(const wo_lens_view *view, const wo_system *system, wo_meridian meridian,
                             double field);
-/* How fast that height would move across the meridian as the object does: mm for each radian in
-   which it is seen from the entrance pupil, by its size; NAN when no chief ray gets there. */
-double wo_lens_chief_sideways(const wo_lens_view *view, wo_meridian meridian, double field);
 
 #endif

@@ -10,13 +10,15 @@ target_link_libraries(wo_test_scenes PUBLIC
     wo_core wo_base wo_options cmocka Threads::Threads m)
 
 foreach(name IN ITEMS filter_image focus_control invariance knobs layout leave_out lens_image
-        lens_looks lens_lights quality edges smoothness spread threads)
+        lens_looks lens_lights offered quality edges smoothness spread threads)
     add_executable(test_${name} ${property_dir}/test_${name}.c)
     target_link_libraries(test_${name} PRIVATE wo_test_scenes)
     add_test(NAME property.${name} COMMAND test_${name})
     set_tests_properties(property.${name} PROPERTIES TIMEOUT 300)
 endforeach()
 set_tests_properties(property.threads PROPERTIES LABELS threads)
+target_compile_definitions(test_offered PRIVATE
+    WO_CHOICES="${PROJECT_SOURCE_DIR}/tests/golden/choices.txt")
 
 # The same of every method, over the footage too.
 add_executable(test_coverage ${property_dir}/test_coverage.c)
