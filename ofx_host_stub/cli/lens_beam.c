@@ -17,20 +17,28 @@ typedef struct beam_of {
     double field, height;
 } beam_of;
 
+/* From the sensor to the plane of its coordinates: the last vertex's, but for a sensor close to
+   that. */
+static double away_of(const wo_lens_view *view)
+{
+    const double semi = fmax(view->lens.surface[view->lens.count - 1].semi_aperture, 1e-3);
+    return copysign(fmax(fabs(view->image), 0.05 * semi), view->image);
+}
+
 static void leave_sensor(const beam_of *b, double px, double py, double p[3], double d[3])
 {
     const wo_lens_view *const view = b->view;
     const bool in_x = b->meridian == WO_MERIDIAN_X;
-    const double to_lens = view->image > 0 ? -view->image : fmax(-view->image, 1e-9);
-    p[0] = px;
-    p[1] = py;
-    p[2] = view->system.z_last;
-    d[0] = px - (in_x ? b->height : 0);
-    d[1] = py - (in_x ? 0 : b->height);
-    d[2] = to_lens;
-    const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    const double away = away_of(view), way = away > 0 ? 1 : -1;
+    const double sensor[3] = {in_x ? b->height : 0, in_x ? 0 : b->height, wo_lens_sensor_z(view)};
+    const double length = hypot(hypot(px - sensor[0], py - sensor[1]), away);
+    d[0] = way * (px - sensor[0]) / length;
+    d[1] = way * (py - sensor[1]) / length;
+    d[2] = -fabs(away) / length;
+    /* A virtual image's rays begin at the last vertex. */
+    const double t = view->image < 0 ? (view->system.z_last - sensor[2]) / d[2] : 0;
     for (int k = 0; k < 3; k++)
-        d[k] *= (d[2] < 0 ? 1 : -1) / length;
+        p[k] = sensor[k] + t * d[k];
 }
 
 /* Whether the ray passes; where it crosses the iris, along and across; its squared cosine where it
@@ -139,8 +147,9 @@ static double rear_reach(const beam_of *b)
         semi = 1.5 * semi + fabs(b->height);
     }
     const double sag = fabs(wo_lens_sag(last, b->meridian, semi));
-    const double far = fmax(fabs(view->image), 1e-3 * semi);
-    return 1.02 * semi + (isnan(sag) ? semi : sag) * (semi + fabs(b->height)) / far;
+    const double far = fabs(away_of(view));
+    const double reach = 1.02 * semi + (isnan(sag) ? semi : sag) * (semi + fabs(b->height)) / far;
+    return fmax(reach, fabs(b->height) + 3 * far * (far > fabs(view->image)));
 }
 
 static bool span_of_sensor(const beam_of *b, wo_lens_span *span)
@@ -257,6 +266,6 @@ bool wo_lens_beam_make(const wo_lens_view *view, double height, wo_lens_beam *be
         add_row(&b, &s, in * sin(angle), 2 * in * cos(angle) * (PI / 2) / ROWS, &sum);
     }
     /* Solid angle times cosine: dA cos^4 / distance^2. */
-    *beam = (wo_lens_beam){sum.light / (view->image * view->image), sum.iris};
+    *beam = (wo_lens_beam){sum.light / (away_of(view) * away_of(view)), sum.iris};
     return sum.light > 0;
 }

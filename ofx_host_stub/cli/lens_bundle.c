@@ -34,15 +34,27 @@ void wo_bundle_free(wo_bundle *bundle)
     *bundle = (wo_bundle){0};
 }
 
-/* Additive recurrence with the plastic number: even, without rows. Pairs lie on both sides of the
-   meridian, as the lens does. */
+/* -0.5..0.5, unlike its neighbours'. */
+static double scramble(uint32_t x)
+{
+    x = (x ^ x >> 16) * 0x45d9f3bU;
+    x = (x ^ x >> 16) * 0x45d9f3bU;
+    return (double)(x ^ x >> 16) / 4294967296.0 - 0.5;
+}
+
+/* Additive recurrence with the plastic number, moved by up to half the distance of two rays: even,
+   without rows that would show as moire. Pairs lie on both sides of the meridian, as the lens does.
+ */
 void wo_bundle_scatter(wo_bundle *bundle, wo_meridian meridian, int turn)
 {
     const double w = bundle->x2 - bundle->x1, h = bundle->y2 - bundle->y1;
+    const double apart = sqrt(2 * w * h / bundle->count);
     for (int i = 0; i < bundle->count; i++) {
         const int k = i / 2;
-        const double u = 0.618034 * turn + 0.7548776662466927 * k;
-        const double v = 0.414214 * turn + 0.5698402909980532 * k;
+        const uint32_t number = 2 * (uint32_t)k + 0x9E3779B9U * (uint32_t)turn;
+        const double u = 0.618034 * turn + 0.7548776662466927 * k + scramble(number) * apart / w;
+        const double v =
+            0.414214 * turn + 0.5698402909980532 * k + scramble(number + 1) * apart / h;
         bundle->px[i] = bundle->x1 + w * (u - floor(u));
         bundle->py[i] = bundle->y1 + h * (v - floor(v));
         if (i % 2 == 1 && meridian == WO_MERIDIAN_X)

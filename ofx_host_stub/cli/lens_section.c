@@ -235,9 +235,9 @@ static void note_sensor(const section *s)
     char text[96], number[32];
     const double image = s->view->image;
     if (isfinite(image))
-        snprintf(text, sizeof text, "the sensor, outside of the drawing: z = %s mm%s",
+        snprintf(text, sizeof text, "the sensor is not drawn: z = %s mm%s",
                  wo_plot_number(number, sizeof number, wo_lens_sensor_z(s->view), 1),
-                 image > 0 ? "" : ", a virtual image");
+                 image >= 0 ? "" : ", a virtual image");
     else
         snprintf(text, sizeof text, "no sensor: the image is at infinity");
     wo_svg_text(s->svg, s->box.x + s->box.w, s->box.y + 12, 11, WO_ANCHOR_END, false, text);

@@ -76,13 +76,17 @@ static double field_of(const wo_lens_view *view)
     return 1;
 }
 
+/* That of the entrance pupil, unless clear radii leave less of it than the iris does. */
 static double working_f_number(const wo_lens_view *view)
 {
-    double low, high, chief;
-    if (isfinite(view->first[1].fno) ||
-        !wo_lens_fan(view, WO_MERIDIAN_Y, 0, WO_TRACE_CLIP, &low, &high, &chief))
-        return view->first[1].fno;
-    return fabs(view->first[1].efl) / (high - low);
+    double clear_low, clear_high, low, high, chief;
+    const double paraxial = view->first[1].fno;
+    if (!wo_lens_fan(view, WO_MERIDIAN_Y, 0, WO_TRACE_CLIP, &clear_low, &clear_high, &chief))
+        return paraxial;
+    const double clear = fabs(view->first[1].efl) / (clear_high - clear_low);
+    if (!isfinite(paraxial) || !wo_lens_fan(view, WO_MERIDIAN_Y, 0, 0, &low, &high, &chief))
+        return clear;
+    return clear_high - clear_low < 0.98 * (high - low) ? fmax(clear, paraxial) : paraxial;
 }
 
 wo_status wo_lens_view_make(const wo_prescription *lens, const wo_lens_setup *setup,

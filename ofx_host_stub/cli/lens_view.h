@@ -16,8 +16,8 @@ typedef struct wo_lens_view {
     wo_system system;              /* at nm */
     double nm;
     wo_first_order first[2]; /* at nm, in x and in y */
-    double f_number; /* of the axial beam: first[1].fno, or where that does not exist (an entrance
-                        pupil at infinity), what the clear radii leave */
+    double f_number; /* of the axial beam: first[1].fno, or where clear radii leave less than the
+                        iris does (all of a pupil at infinity), what they leave */
     double vf;       /* dioptres from the entrance pupil to the object, 0 = infinity */
     double half_field;
     double image;       /* last vertex to the sensor: the paraxial focus at nm */

@@ -111,7 +111,11 @@ silent_error
 expect 0 lens biotar_zeiss_100_f14 --json
 is_json stdout
 cp stdout lens.json
-for key in efl bfd ffd H1 H2 ep_z ep_d xp_z xp_d fno; do
+for key in efl bfd ffd H1 H2 ep_z ep_d xp_z xp_d fno oal f_number half_field image petzval_radius \
+    seidel.sums.4 seidel.chromatic_sums.1 seidel.born_wolf.4 aberration.0.pupil_radius \
+    aberration.0.lines.2.focus_shift.32 aberration.0.lines.2.slope.32 pencils.pupil_radius \
+    pencils.zones.32 pencils.lines.2.vergence_shift.32 field.lit_iris.24 field.illumination.24 \
+    field.distortion.24 field.image_height.24 spots.2.rms; do
     checks=$((checks + 1))
     "$wideopen" json lens.json "$key" >key 2>stderr || fail "lens --json lacks $key"
 done
@@ -128,6 +132,9 @@ says missing.lens
 expect 1 lens biotar_zeiss_100_f14 --fnumber 0.5
 says 'wider than'
 expect 2 lens biotar_zeiss_100_f14 --wavelength 10
+expect 2 lens biotar_zeiss_100_f14 --field 151
+expect 1 lens biotar_zeiss_100_f14 --field 95 --focus 2
+says '95 degrees.*2 m'
 expect 2 lens biotar_zeiss_100_f14 --meridian z
 expect 1 lens biotar_zeiss_100_f14 --focus 0.01
 expect 2 lens
@@ -174,6 +181,38 @@ checks=$((checks + 1))
 cmp -s page.svg again.svg || fail "two drawings of one lens differ"
 expect 0 lens anamorphic_schneider_31 --page anamorphic.svg
 well_formed anamorphic.svg
+
+# An iris in the rear focus: telecentric in object space. Its f-number is what the clear radius leaves.
+cat >telecentric.lens <<'END'
+lens 1
+name telecentric
+surface 51.68 4 1.5168 10
+surface -51.68 49.33190807055051 air 10
+surface 0 30 air 5 stop
+END
+expect 0 lens telecentric.lens --json
+is_json stdout
+value stdout fno null
+value stdout ep_d null
+expect 0 lens telecentric.lens --page telecentric.svg --focus 0.2
+checks=$((checks + 1))
+grep -q 'f/2\.[45]' telecentric.svg && ! grep -q 'f/0\.00' telecentric.svg ||
+    fail "the page of a telecentric lens has no f-number"
+
+# The longest title stays on the page; a sensor far away is noted.
+{
+    echo 'lens 1'
+    printf 'title '
+    head -c 127 /dev/zero | tr '\0' 'W'
+    printf '\nname long\nfield 3\nsurface 5000 4 1.5168 10 stop\nsurface 0 9000 air 10\n'
+} >long.lens
+expect 0 lens long.lens --page long.svg --section long-section.svg
+checks=$((checks + 2))
+# 1 em is as wide as any letter.
+sed -n 's/.*font-size="\([0-9.]*\)"[^>]*>\(WW*\).*/\1 \2/p' long.svg |
+    awk '{ if ($1 * length($2) > 1280 - 28) exit 1 }' || fail "a long title leaves the page"
+grep -q 'the sensor is not drawn: z = 9[0-9]*\.[0-9] mm' long-section.svg ||
+    fail "a sensor outside of the section is not noted"
 
 echo old >kept.svg
 expect 1 lens single.dat --page missing-folder/page.svg
