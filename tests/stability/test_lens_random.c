@@ -59,8 +59,8 @@ static int survives(const scene *s, int number)
         fail_msg(
             "combination %d: %s at %g mm, f/%g, sensor %g mm, focus %g m, method %d: status %d, "
             "\"%s\"",
-            number, wo_lens_name_at((size_t)p->lens_design), p->focal_length, p->f_stop,
-            p->sensor_width, p->focus_distance, p->method, (int)status, error.text);
+            number, wo_lens_design(p->lens_design), p->focal_length, p->f_stop, p->sensor_width,
+            p->focus_distance, p->method, (int)status, error.text);
     picture_free(&out);
     return status == WO_OK;
 }

@@ -148,14 +148,14 @@ static void every_lens(void **state)
     static const double stops[] = {0, 2.8, 8};
     tables = 0;
     int all = 0;
-    for (size_t i = 0; wo_lens_names[i]; i++) {
-        const wo_prescription lens = builtin(wo_lens_names[i]);
+    for (size_t i = 0; wo_lens_name_at(i); i++) {
+        const wo_prescription lens = builtin(wo_lens_name_at(i));
         wo_error error;
         if (wo_lens_model_check(&lens, &error) != WO_OK)
             continue;
         all++;
         for (size_t k = 0; k < WO_COUNT(stops); k++)
-            one_lens(wo_lens_names[i], stops[k]);
+            one_lens(wo_lens_name_at(i), stops[k]);
     }
     assert_true(tables >= 2 * all);
 }
