@@ -188,6 +188,7 @@ wo_status wo_lens_blur_copy(const wo_plan *plan, wo_rect window, const wo_image 
     part.pixels = (int64_t)wo_rect_width(window) * wo_rect_height(window);
     part.tiles[WO_TILE_SHARP] = (int64_t)wo_rect_width(tiles) * wo_rect_height(tiles);
     part.sanitised_colour = atomic_load(&job.sanitised);
+    wo_lens_blur_warn_of_colour(&part);
     if (wo_renderer_of((wo_method)plan->params.method)->estimates)
         part.error_pixels[WO_TILE_SHARP] = part.pixels; /* and no error in them */
     const int rays = plan->quality.adaptive ? plan->quality.max_rays : plan->quality.samples;

@@ -294,6 +294,7 @@ static wo_status build_scene(wo_plan *plan, const wo_plan_args *args, wo_error *
                                     plan->window, error);
     plan->report.seconds[WO_STAGE_BOUNDS] += wo_seconds() - start;
     plan->report.sanitised_colour = counts.sanitised_colour;
+    wo_lens_blur_warn_of_colour(&plan->report);
     plan->report.sanitised_depth = counts.sanitised_depth;
     plan->report.edge_depth = counts.edge_depth;
     plan->report.clamped_radius = counts.clamped_radius;

@@ -53,6 +53,8 @@ wo_status wo_lens_blur_plan_create(const wo_context *context, const void *params
                                    const wo_plan_args *args, wo_plan **plan, wo_error *error);
 int wo_lens_blur_plan_print(const wo_plan *plan, char *buffer, size_t size);
 const wo_report *wo_lens_blur_plan_report(const wo_plan *plan);
+/* Says that colour was cut, if any was. */
+void wo_lens_blur_warn_of_colour(wo_report *report);
 wo_status wo_lens_blur_render(const wo_plan *plan, wo_rect window, const wo_image *output,
                               wo_report *report, wo_error *error);
 void wo_lens_blur_plan_destroy(wo_plan **plan);

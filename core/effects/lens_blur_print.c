@@ -46,6 +46,16 @@ static void add_warnings(printer *p, const wo_report *report)
         add(p, "warning     %s\n", report->warnings[i].text);
 }
 
+void wo_lens_blur_warn_of_colour(wo_report *report)
+{
+    if (report->sanitised_colour > 0)
+        wo_report_warn(
+            report, "colour-cut",
+            "%lld samples of the pictures are no light: what is not finite was taken for "
+            "0, what lies beyond 1e30 was cut to that",
+            (long long)report->sanitised_colour);
+}
+
 const wo_report *wo_lens_blur_plan_report(const wo_plan *plan)
 {
     return &plan->report;

@@ -342,7 +342,10 @@ static wo_status read_other(const char *path, int fd, const wo_io_format *format
 {
     uint64_t promised;
     WO_TRY(wo_io_check_whole(path, fd, format, &promised, error));
-    return wo_io_read_apart(path, fd, format, headers_only, promised, file, error);
+    WO_TRY(wo_io_read_apart(path, fd, format, headers_only, promised, file, error));
+    for (size_t i = 0; i < (*file)->part_count; i++)
+        WO_TRY(wo_io_part_upright(&(*file)->parts[i], error));
+    return WO_OK;
 }
 
 /* Reads a file, or of an EXR a view of it when image is not NULL. */

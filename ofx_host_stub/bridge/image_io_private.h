@@ -41,6 +41,10 @@ WO_NODISCARD wo_status wo_io_part_head(wo_io_part *part, const char *name, wo_re
 /* Gives a part that has none zeroed pixels. */
 WO_NODISCARD wo_status wo_io_part_pixels(wo_io_part *part, wo_error *error);
 
+/* Turns and mirrors what the attribute "Orientation" says is stored in another way than it is seen,
+   and makes that 1. */
+WO_NODISCARD wo_status wo_io_part_upright(wo_io_part *part, wo_error *error);
+
 /* Adds an attribute. text and kind may be NULL. */
 WO_NODISCARD wo_status wo_io_part_add(wo_io_part *part, const char *name, wo_io_type type,
                                       double number, const char *text, const char *kind,

@@ -173,7 +173,9 @@ OIIO::ImageSpec spec_of(const wo_io_part *part, const wo_io_format *format, int 
 int channels_written(const wo_io_part *part, const wo_io_format *format)
 {
     int channels = part->channels;
-    if (!format->has_alpha && (channels == 2 || channels == 4))
+    /* the library ends the program over a DPX of grey and alpha */
+    const bool no_grey_alpha = channels == 2 && !std::strcmp(format->library_name, "dpx");
+    if ((!format->has_alpha && (channels == 2 || channels == 4)) || no_grey_alpha)
         channels--;
     return channels == 1 && !format->has_grey ? 3 : channels;
 }

@@ -308,67 +308,6 @@ static int open_files(wo_render_job *job)
     return wo_render_add_clips(job);
 }
 
-/* ------------------------------------------------------------------------------- the parameters */
-
-static int unknown_param(const wo_render_job *job, const char *name)
-{
-    const size_t count = job->context->param_count;
-    const char **const names = malloc((count + 1) * sizeof *names);
-    char near[1024] = "";
-    size_t used = 0;
-    for (size_t i = 0; names && i < count; i++)
-        if (job->context->params[i].kind != WO_HOST_PARAM_GROUP &&
-            job->context->params[i].kind != WO_HOST_PARAM_PAGE)
-            names[used++] = job->context->params[i].script_name;
-    const int hits = names ? wo_near_words(name, names, used, near, sizeof near) : 0;
-    free(names);
-    return wo_usage_fault("render", "%s has no parameter \"%s\"; %s %s", job->plugin->identifier,
-                          name, hits ? "did you mean" : "there are", near);
-}
-
-/* Writes keys without the name that may stand before each "@"; keys has room for text. */
-static void strip_names(const char *name, const char *text, char *keys)
-{
-    const size_t length = strlen(name);
-    bool start = true; /* of the text, or behind a comma */
-    while (*text) {
-        if (start && strncmp(text, name, length) == 0 && text[length] == '@')
-            text += length;
-        start = *text == ',';
-        *keys++ = *text++;
-    }
-    *keys = '\0';
-}
-
-/* "name=value", or "name@frame:value,name@frame:value,..." for keys. */
-static int set_param(wo_render_job *job, const char *text)
-{
-    const size_t length = strcspn(text, "=@");
-    char name[128];
-    if (length == 0 || length >= sizeof name || !text[length])
-        return wo_usage_fault("render", "--set is \"%s\", but must be NAME=VALUE", text);
-    snprintf(name, sizeof name, "%.*s", (int)length, text);
-    const wo_host_param_info *const param = wo_host_find_param(job->context, name);
-    if (!param)
-        return unknown_param(job, name);
-    char *const value = malloc(strlen(text) + 1);
-    if (!value) {
-        wo_message("out of memory for --set %.80s", text);
-        return WO_EXIT_FAILURE;
-    }
-    if (text[length] == '=')
-        strcpy(value, text + length + 1);
-    else
-        strip_names(name, text, value);
-    wo_error error = {0};
-    const wo_status status = wo_host_param_set_text(job->instance, param->name, value, &error);
-    free(value);
-    if (status == WO_OK)
-        return WO_EXIT_OK;
-    return status == WO_ERR_NOMEM ? wo_failure(&error)
-                                  : wo_usage_fault("render", "--set %s: %s", text, error.text);
-}
-
 /* -------------------------------------------------------------------------------------- the run */
 
 static int write_reports(wo_render_job *job, const wo_error *failed)
@@ -422,13 +361,8 @@ static int run(wo_render_job *job)
     wo_error error = {0};
     if (wo_render_make_instance(job, &error) != WO_OK)
         return wo_failure(&error);
-    for (int i = 0; i < wo_args_count(job->args, "--set"); i++) {
-        code = set_param(job, wo_args_value(job->args, "--set", i));
-        if (code != WO_EXIT_OK)
-            return code;
-    }
-    wo_camera_choose(job);
-    return render_all(job);
+    code = wo_render_set_params(job);
+    return code == WO_EXIT_OK ? render_all(job) : code;
 }
 
 int wo_cmd_render(int argc, char **argv)

@@ -145,6 +145,7 @@ static wo_status read_picture(wo_input *input, int frame, wo_input_picture *p, w
     }
     if (p->part >= p->file->part_count)
         return wo_fail(error, WO_ERR_FORMAT, "%s changed while it was read", path);
+    p->own = p->image.components;
     return choose_space(input->inputs, path, p, error);
 }
 
@@ -173,11 +174,9 @@ wo_status wo_input_make_linear(wo_input *input, wo_input_picture *p, wo_error *e
     if (!wo_input_is_numbers(input, p))
         WO_TRY(
             wo_picture_linear(input->inputs->colour, p->file, p->part, p->space, &p->image, error));
-    /* one frame may be grey, another have alpha: the clip is what its first was */
-    if (input->components) {
-        p->narrowed = p->image.components > input->components;
+    /* one frame may be grey, another have alpha: those around the one that is rendered follow it */
+    if (input->components)
         WO_TRY(wo_picture_components(&p->image, input->components, error));
-    }
     WO_TRY(fit(input, p, error));
     p->linear = true;
     return WO_OK;
@@ -260,6 +259,7 @@ static bool guess_raw(const wo_input *input)
 static void show(wo_input *input, const wo_input_picture *p)
 {
     input->present = p;
+    input->raw = input->wished || guess_raw(input);
     snprintf(input->space, sizeof input->space, "%s", p->space);
 }
 
@@ -321,7 +321,6 @@ static wo_status fill_input(wo_input *input, const char *spec, int frame, wo_err
         input->last = there.last;
     }
     show(input, first);
-    input->raw = guess_raw(input);
     return WO_OK;
 }
 
@@ -367,6 +366,51 @@ static void drop_others(wo_input *input, int frame)
             picture_clear(&input->pictures[i]);
 }
 
+/* Reads anew what was brought into another form than is wanted now. */
+static wo_status forget_linear(wo_input *input, wo_error *error)
+{
+    const int frame = input->present->frame;
+    wo_input_picture *p;
+    input->present = NULL;
+    for (size_t i = 0; i < input->picture_count; i++)
+        if (input->pictures[i].linear)
+            picture_clear(&input->pictures[i]);
+    WO_TRY(wo_input_fetch(input, frame, &p, error));
+    show(input, p);
+    return WO_OK;
+}
+
+/* Where the main clip's picture is of another format than the last, the others come on its pixels
+   anew. */
+static wo_status follow_main(wo_inputs *inputs, wo_error *error)
+{
+    if (!inputs->main)
+        return WO_OK;
+    const wo_io_part *const header = wo_input_header(inputs->main);
+    wo_project_pixels *const pixels = &inputs->pixels;
+    const double aspect = wo_part_aspect(header);
+    if (wo_rect_equal(header->display_window, pixels->window) && aspect == pixels->aspect)
+        return WO_OK;
+    pixels->window = header->display_window;
+    pixels->aspect = aspect;
+    for (size_t i = 0; i < inputs->count; i++)
+        if (inputs->clips[i] != inputs->main)
+            WO_TRY(forget_linear(inputs->clips[i], error));
+    return WO_OK;
+}
+
+/* The clip has the components of the frame that is rendered. */
+static wo_status follow_present(wo_input *input, wo_error *error)
+{
+    const int own = input->present->own;
+    const int components = own == 1 && !wo_input_is_raw(input) ? 3 : own;
+    if (!input->components || components == input->components)
+        return WO_OK;
+    WO_TRY(forget_linear(input, error));
+    input->components = components;
+    return WO_OK;
+}
+
 static wo_status prepare_all(wo_inputs *inputs, int frame, wo_error *error)
 {
     for (size_t i = 0; i < inputs->count; i++) {
@@ -377,6 +421,13 @@ static wo_status prepare_all(wo_inputs *inputs, int frame, wo_error *error)
         WO_TRY(wo_input_fetch(input, shown, &p, error));
         input->missed = input->given = false;
         show(input, p);
+    }
+    WO_TRY(follow_main(inputs, error));
+    for (size_t i = 0; i < inputs->count; i++) {
+        wo_input *const input = inputs->clips[i];
+        wo_input_picture *p;
+        WO_TRY(follow_present(input, error));
+        WO_TRY(wo_input_fetch(input, input->present->frame, &p, error));
         WO_TRY(wo_input_make_linear(input, p, error));
     }
     return WO_OK;
@@ -416,11 +467,6 @@ bool wo_input_is_held(const wo_input *input, int frame, int *held)
 {
     *held = input->present->frame;
     return input->sequence && input->inputs->missing == WO_MISSING_HOLD && *held != frame;
-}
-
-bool wo_input_is_narrowed(const wo_input *input)
-{
-    return input->present->narrowed;
 }
 
 const char *wo_input_found(const wo_input *input)
@@ -464,7 +510,8 @@ bool wo_input_is_raw(const wo_input *input)
 
 void wo_input_set_raw(wo_input *input, bool raw)
 {
-    input->raw = raw;
+    input->wished = raw;
+    input->raw = raw || guess_raw(input);
 }
 
 const wo_io_part *wo_input_header(const wo_input *input)

@@ -60,10 +60,6 @@ const wo_input *wo_inputs_missing(const wo_inputs *inputs, int frame);
 /* Is the present picture that of another frame, which is held? */
 bool wo_input_is_held(const wo_input *input, int frame, int *held);
 
-/* Has the present picture alpha or colours that the sequence's first picture had not? They are left
-   out. */
-bool wo_input_is_narrowed(const wo_input *input);
-
 /* The channel that was found for a clip of depth whose words show a colour; NULL: the words are
    taken as given. */
 const char *wo_input_found(const wo_input *input);

@@ -16,7 +16,7 @@ enum { WO_PICTURES_MAX = 8, WO_FILES_MAX = 4 };
 typedef struct wo_input_picture {
     int frame;
     bool linear;      /* colour conversion is done, or not needed */
-    bool narrowed;    /* it has more components than the clip */
+    int own;          /* components in the file */
     char *path;       /* of this file */
     char *space;      /* its colour space */
     wo_image image;   /* data is malloc-ed */
@@ -36,6 +36,7 @@ struct wo_input {
     int first, last; /* frames of a sequence that are on the disk */
     int components;  /* what the host was told, 0 = nothing yet */
     bool raw;
+    bool wished; /* raw was asked for, whatever the picture looks like */
     bool missed; /* the plugin wanted a frame beyond them ... */
     bool given;  /* ... and got another one */
     wo_input_picture pictures[WO_PICTURES_MAX];

@@ -2,6 +2,7 @@
 /* Copyright the WideOpen authors */
 #include "render_job.h"
 
+#include "bridge/colour_label.h"
 #include "render_camera.h"
 
 #include <limits.h>
@@ -213,24 +214,6 @@ static wo_status note_held(wo_render_job *job, int frame, wo_error *error)
     return WO_OK;
 }
 
-static wo_status note_narrowed(wo_render_job *job, int frame, wo_error *error)
-{
-    char text[512];
-    for (size_t i = 0; wo_inputs_at(job->inputs, i); i++) {
-        const wo_input *const input = wo_inputs_at(job->inputs, i);
-        if (!wo_input_is_narrowed(input))
-            continue;
-        snprintf(text, sizeof text,
-                 "clip %s: frame %d of %.300s has more channels (alpha, or colours) than the frame "
-                 "that came first: they are left out; begin with such a frame to keep them",
-                 wo_input_clip(input), frame, wo_input_file(input));
-        if (!wo_record_warn(&job->record, "channels-left-out", text))
-            return wo_fail(error, WO_ERR_NOMEM, "out of memory for the report");
-    }
-    tell_warnings(job);
-    return WO_OK;
-}
-
 /* Colours that are read as depth, unless their channel was chosen. */
 static wo_status note_colours(wo_render_job *job, wo_error *error)
 {
@@ -253,6 +236,28 @@ static wo_status note_colours(wo_render_job *job, wo_error *error)
     return WO_OK;
 }
 
+/* Names of colour spaces in files that nobody here knows. */
+static wo_status note_spaces(wo_render_job *job, wo_error *error)
+{
+    char text[512];
+    for (size_t i = 0; wo_inputs_at(job->inputs, i); i++) {
+        const wo_origin from = wo_input_origin(wo_inputs_at(job->inputs, i));
+        const char *const name = from.space && !from.forced
+                                     ? wo_label_unknown(job->colour, from.path, from.header)
+                                     : NULL;
+        if (!name)
+            continue;
+        snprintf(text, sizeof text,
+                 "%.200s says that its colours are in %.80s, which the colour configuration does "
+                 "not know; they are taken for %.80s (--in-space says otherwise)",
+                 from.path, name, from.space);
+        if (!wo_record_warn(&job->record, "input-space", text))
+            return wo_fail(error, WO_ERR_NOMEM, "out of memory for the report");
+    }
+    tell_warnings(job);
+    return WO_OK;
+}
+
 static wo_status render_frame(wo_render_job *job, wo_frame_record *frame, wo_error *error)
 {
     const double start = wo_seconds();
@@ -264,8 +269,9 @@ static wo_status render_frame(wo_render_job *job, wo_frame_record *frame, wo_err
                             wo_input_clip(absent), wo_input_file(absent), frame->frame);
     }
     WO_TRY(wo_inputs_prepare(job->inputs, frame->frame, error));
+    WO_TRY(wo_render_follow_format(job, error));
     WO_TRY(note_held(job, frame->frame, error));
-    WO_TRY(note_narrowed(job, frame->frame, error));
+    WO_TRY(note_spaces(job, error));
     if (!job->record.plugin) {
         wo_camera_tell(job);
         WO_TRY(note_colours(job, error));

@@ -12,6 +12,13 @@
 
 #include <pthread.h>
 
+/* What the host is told of a clip before it asks for pixels. */
+typedef struct wo_clip_format {
+    int components;
+    double pixel_aspect, frame_rate;
+    bool raw;
+} wo_clip_format;
+
 /* One run of `wideopen render`: what the command line asked for and what came of it. */
 typedef struct wo_render_job {
     const wo_args *args;
@@ -31,6 +38,7 @@ typedef struct wo_render_job {
     const wo_host_plugin *plugin;
     const wo_host_context_info *context;
     wo_host_instance *instance;
+    wo_clip_format formats[WO_INPUTS_MAX]; /* that it was made for */
     wo_colour *colour;
     wo_inputs *inputs;
     wo_record record;
@@ -49,6 +57,13 @@ int wo_render_add_clips(wo_render_job *job);
 
 /* Makes the project and an instance in it, with its clips connected. */
 WO_NODISCARD wo_status wo_render_make_instance(wo_render_job *job, wo_error *error);
+
+/* Sets what --set says. Returns an exit code and has said what is wrong. */
+int wo_render_set_params(wo_render_job *job);
+
+/* Makes project and instance anew where the files of this frame are of another format than those
+   they were made for: a frame must not depend on the one a job began with. */
+WO_NODISCARD wo_status wo_render_follow_format(wo_render_job *job, wo_error *error);
 
 /* Renders and writes every frame; stops at the first failure. The instance, its clips and
    parameters are set. */

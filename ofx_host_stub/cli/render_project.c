@@ -21,10 +21,19 @@ static void choose_project(wo_render_job *job, const wo_input *main)
                   &(wo_project_pixels){job->project, job->pixel_aspect, job->clip_size});
 }
 
+static wo_clip_format format_of(const wo_input *input, const wo_host_source *source)
+{
+    return (wo_clip_format){source->components, source->pixel_aspect, source->frame_rate,
+                            wo_input_is_raw(input)};
+}
+
 static wo_status connect_clip(wo_render_job *job, const wo_host_project *project, wo_input *input,
                               wo_error *error)
 {
     const wo_host_source source = wo_input_source(input, project);
+    for (size_t i = 0; wo_inputs_at(job->inputs, i); i++)
+        if (wo_inputs_at(job->inputs, i) == input)
+            job->formats[i] = format_of(input, &source);
     return wo_host_set_clip(job->instance, wo_input_clip(input), &source, error);
 }
 
@@ -87,4 +96,37 @@ wo_status wo_render_make_instance(wo_render_job *job, wo_error *error)
     for (size_t i = 0; wo_inputs_at(job->inputs, i); i++)
         WO_TRY(connect_clip(job, &project, wo_inputs_at(job->inputs, i), error));
     return follow_wishes(job, &project, error);
+}
+
+static bool is_another_format(const wo_render_job *job)
+{
+    const wo_input *const main = main_clip(job);
+    const wo_io_part *const header = main ? wo_input_header(main) : NULL;
+    wo_host_project project = WO_HOST_PROJECT_INIT;
+    if (!main)
+        return false;
+    if (!wo_rect_equal(job->project, header->display_window) ||
+        job->pixel_aspect != wo_part_aspect(header))
+        return true;
+    project.frame_rate = wo_input_rate(main, project.frame_rate);
+    for (size_t i = 0; wo_inputs_at(job->inputs, i); i++) {
+        wo_input *const input = wo_inputs_at(job->inputs, i);
+        const wo_host_source source = wo_input_source(input, &project); /* changes nothing now */
+        const wo_clip_format now = format_of(input, &source), *const then = &job->formats[i];
+        if (now.components != then->components || now.pixel_aspect != then->pixel_aspect ||
+            now.frame_rate != then->frame_rate || now.raw != then->raw)
+            return true;
+    }
+    return false;
+}
+
+wo_status wo_render_follow_format(wo_render_job *job, wo_error *error)
+{
+    if (!is_another_format(job))
+        return WO_OK;
+    wo_host_instance_destroy(&job->instance);
+    WO_TRY(wo_render_make_instance(job, error));
+    return wo_render_set_params(job) == WO_EXIT_OK
+               ? WO_OK
+               : wo_fail(error, WO_ERR_ARGUMENT, "the parameters do not suit these files");
 }

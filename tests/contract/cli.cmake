@@ -7,6 +7,10 @@ add_test(NAME contract.cli
     COMMAND ${CMAKE_CURRENT_LIST_DIR}/cli.sh $<TARGET_FILE:wideopen> $<TARGET_FILE:json_check>
             ${CMAKE_CURRENT_BINARY_DIR}/cli_work)
 set_tests_properties(contract.cli PROPERTIES TIMEOUT 600 ENVIRONMENT "${cli_environment}")
+add_test(NAME contract.colour
+    COMMAND ${CMAKE_CURRENT_LIST_DIR}/colour.sh $<TARGET_FILE:wideopen>
+            ${CMAKE_CURRENT_BINARY_DIR}/colour_work)
+set_tests_properties(contract.colour PROPERTIES TIMEOUT 300 ENVIRONMENT "${cli_environment}")
 add_test(NAME contract.signals
     COMMAND ${CMAKE_CURRENT_LIST_DIR}/signals.sh $<TARGET_FILE:wideopen>
             ${CMAKE_CURRENT_BINARY_DIR}/signals_work)

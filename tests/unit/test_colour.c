@@ -100,6 +100,51 @@ static void primaries(void **state)
                     1e-6);
 }
 
+/* Every space for textures of the Color Interop Forum goes by its id; an encoded one is the linear
+   one of its primaries behind its curve. */
+static void forum_ids(void **state)
+{
+    (void)state;
+    static const char *const ids[] = {
+        "lin_ap1_scene",    "lin_ap0_scene",       "lin_rec709_scene",
+        "lin_p3d65_scene",  "lin_rec2020_scene",   "lin_adobergb_scene",
+        "srgb_ap1_scene",   "lin_ciexyzd65_scene", "srgb_rec709_scene",
+        "g22_rec709_scene", "g18_rec709_scene",    "g22_ap1_scene",
+        "srgb_p3d65_scene", "g22_adobergb_scene",  "data"};
+    static const struct {
+        const char *encoded, *linear;
+        double light; /* of code 0.5 */
+    } curves_of[] = {{"srgb_rec709_scene", "lin_rec709_scene", 0.21404114},
+                     {"g22_rec709_scene", "lin_rec709_scene", 0.21763764},
+                     {"g18_rec709_scene", "lin_rec709_scene", 0.28717459},
+                     {"srgb_ap1_scene", "lin_ap1_scene", 0.21404114},
+                     {"g22_ap1_scene", "lin_ap1_scene", 0.21763764},
+                     {"srgb_p3d65_scene", "lin_p3d65_scene", 0.21404114},
+                     {"g22_adobergb_scene", "lin_adobergb_scene", 0.21763764}};
+    char name[64];
+    for (size_t i = 0; i < WO_COUNT(ids); i++) {
+        if (!wo_colour_find(colour, ids[i], name, sizeof name))
+            fail_msg("%s is missing", ids[i]);
+        const wo_colour_standard *const standard = wo_colour_standard_of(colour, name);
+        assert_non_null(standard);
+        assert_string_equal(standard->id, ids[i]);
+    }
+    for (size_t i = 0; i < WO_COUNT(curves_of); i++)
+        for (int c = 0; c < 3; c++) {
+            double code[3] = {0}, light[3] = {0};
+            code[c] = 0.5;
+            light[c] = curves_of[i].light;
+            assert_converts(curves_of[i].encoded, curves_of[i].linear, code, light, 2e-6);
+        }
+    /* published: Rec.2020 and XYZ to Rec.709; Adobe RGB and Rec.709 share red and blue */
+    assert_converts("lin_rec2020", "lin_rec709", RGB(1, 0, 0), RGB(1.660491, -0.124550, -0.018151),
+                    1e-6);
+    assert_converts("lin_rec2020", "lin_rec709", RGB(1, 1, 1), RGB(1, 1, 1), 1e-6);
+    assert_converts("lin_ciexyzd65", "lin_rec709", RGB(0, 1, 0),
+                    RGB(-1.537383, 1.875968, -0.203977), 1e-6);
+    assert_converts("lin_adobergb", "lin_rec709", RGB(1, 0, 0), RGB(1.398356, 0, 0), 1e-6);
+}
+
 /* From light through every two spaces and back, dark to very bright. */
 static void round_trips(void **state)
 {
@@ -330,17 +375,12 @@ static void other_configurations(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names_are_listed),
-        cmocka_unit_test(curves),
-        cmocka_unit_test(primaries),
-        cmocka_unit_test(round_trips),
-        cmocka_unit_test(alpha_is_respected),
-        cmocka_unit_test(data_is_left_alone),
-        cmocka_unit_test(rows_may_be_anywhere),
-        cmocka_unit_test(files_have_spaces),
-        cmocka_unit_test(views),
-        cmocka_unit_test(unknown_names),
-        cmocka_unit_test(other_configurations),
+        cmocka_unit_test(names_are_listed),   cmocka_unit_test(curves),
+        cmocka_unit_test(primaries),          cmocka_unit_test(forum_ids),
+        cmocka_unit_test(round_trips),        cmocka_unit_test(alpha_is_respected),
+        cmocka_unit_test(data_is_left_alone), cmocka_unit_test(rows_may_be_anywhere),
+        cmocka_unit_test(files_have_spaces),  cmocka_unit_test(views),
+        cmocka_unit_test(unknown_names),      cmocka_unit_test(other_configurations),
     };
     return cmocka_run_group_tests(tests, open_own, close_own);
 }

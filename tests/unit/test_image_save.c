@@ -84,6 +84,53 @@ static void hdr_is_rounded(void **state)
     wo_io_part_clear(&part);
 }
 
+/* A wide picture, dark but for red above and green at the left: stored in all ways, seen in one. */
+static void pictures_come_upright(void **state)
+{
+    (void)state;
+    enum { W = 48, H = 32, EDGE = 8 };
+    static const char *const names[] = {"a.jpg", "a.tif"};
+    /* sides of the stored picture on which the upper and the left one are */
+    static const char sides_of[9][3] = {"", "TL", "TR", "BR", "BL", "LT", "LB", "RB", "RT"};
+    for (size_t n = 0; n < WO_COUNT(names); n++)
+        for (int orientation = 1; orientation <= 8; orientation++) {
+            const int w = orientation > 4 ? H : W, h = orientation > 4 ? W : H;
+            const char *const sides = sides_of[orientation];
+            wo_io_part part = picture(w, h, 3);
+            for (int y = 0; y < h; y++)
+                for (int x = 0; x < w; x++)
+                    for (int side = 0; side < 2; side++)
+                        if ((sides[side] == 'T' && y >= h - EDGE) ||
+                            (sides[side] == 'B' && y < EDGE) || (sides[side] == 'L' && x < EDGE) ||
+                            (sides[side] == 'R' && x >= w - EDGE))
+                            *(sample_at(&part, x, y, side)) = 1;
+            const wo_io_attribute said = {(char *)(uintptr_t) "Orientation", WO_IO_INT, orientation,
+                                          NULL, (char *)(uintptr_t) ""};
+            assert_ok(wo_io_part_set(&part, &said, &fault));
+            assert_ok(wo_io_write(in_folder(names[n]), &part, 1, WO_IO_AUTO, &fault));
+            wo_io_part_clear(&part);
+
+            wo_io_file *file = NULL;
+            assert_ok(wo_io_read(in_folder(names[n]), true, &file, &fault));
+            assert_int_equal(wo_rect_width(file->parts->display_window), W);
+            wo_io_file_destroy(&file);
+            assert_ok(wo_io_read(in_folder(names[n]), false, &file, &fault));
+            const wo_io_part *const seen = file->parts;
+            assert_int_equal(wo_rect_width(seen->data_window), W);
+            assert_int_equal(wo_rect_height(seen->data_window), H);
+            for (int y = EDGE / 2; y < H; y += EDGE)
+                for (int x = EDGE / 2; x < W; x += EDGE)
+                    if (fabsf(*sample_at(seen, x, y, 0) - (y >= H - EDGE ? 1 : 0)) > 0.25f ||
+                        fabsf(*sample_at(seen, x, y, 1) - (x < EDGE ? 1 : 0)) > 0.25f)
+                        fail_msg("%s, orientation %d: %g %g at %d,%d", names[n], orientation,
+                                 (double)*sample_at(seen, x, y, 0),
+                                 (double)*sample_at(seen, x, y, 1), x, y);
+            const wo_io_attribute *const now = wo_io_part_find(seen, "Orientation");
+            assert_true(!now || (int)now->number == 1);
+            wo_io_file_destroy(&file);
+        }
+}
+
 static void save(const char *path)
 {
     wo_io_part part = picture(2, 2, 3);
@@ -153,7 +200,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(noise_is_not_mistaken), TEST(tiff_with_exif_is_readable), TEST(hdr_is_rounded),
-        TEST(links_are_followed),    TEST(half_files_are_removed),
+        TEST(pictures_come_upright), TEST(links_are_followed),         TEST(half_files_are_removed),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
