@@ -75,6 +75,8 @@ static void illumination(const wo_lens_view *view, wo_lens_field_curves *out)
             beam = (wo_lens_beam){NAN, NAN};
         axis = i == 0 ? beam.light : axis;
         out->lit[i] = beam.iris / (3.14159265358979323846 * iris * iris);
+        if (out->lit[i] > 1) /* by rounding */
+            out->lit[i] = 1;
         out->illumination[i] = beam.light / axis;
     }
 }

@@ -80,7 +80,7 @@ void wo_panel_illumination(const wo_lens_view *view, const wo_lens_field_curves 
     }
     wo_axis y = {.low = 0, .high = 100, .label = "Of the iris; of the axis, %", .ticks = 5};
     wo_axis_cover(&y, percent[0], 2 * WO_LENS_FIELD_STEPS);
-    y.high = y.high > 100 ? y.high * 1.02 : 100;
+    y.high *= y.high > 100.5 ? 1.02 : 1; /* the cover of all: nothing is cut off */
     const wo_plot plot = wo_panel_begin(svg, box,
                                         view->across == WO_MERIDIAN_X ? "Relative illumination in x"
                                                                       : "Relative illumination",
