@@ -90,10 +90,11 @@ bool wo_io_same_format(const char *path, const char *other);
 WO_NODISCARD wo_status wo_io_read(const char *path, bool headers_only, wo_io_file **file,
                                   wo_error *error);
 void wo_io_file_destroy(wo_io_file **file);
-/* How many files one such fork reads, 1 at first: a file that spoils its memory then spoils no
-   other. More save some milliseconds a file; a file on which a used fork ends is tried again in a
-   fresh one. Any thread. */
-void wo_io_files_per_process(unsigned files);
+/* How many files one such fork reads, 16 at first, and whether it goes on behind a file that it
+   refused, not at first: what a damaged file did to its memory then ends with it. A file on which a
+   fork ends that has read others is tried again in a fresh one. With 1 no file ever shares a fork,
+   which takes some milliseconds more for each. Any thread. */
+void wo_io_files_per_process(unsigned files, bool behind_refused);
 /* Ends the processes that wait for further files; the next file starts one anew. */
 void wo_io_end_helpers(void);
 

@@ -42,12 +42,14 @@ static struct {
     helper idle[MOST_IDLE];
     size_t count;
     unsigned files;
-} pool = {.lock = PTHREAD_MUTEX_INITIALIZER, .files = 1};
+    bool go_on;
+} pool = {.lock = PTHREAD_MUTEX_INITIALIZER, .files = 16};
 
-void wo_io_files_per_process(unsigned files)
+void wo_io_files_per_process(unsigned files, bool behind_refused)
 {
     pthread_mutex_lock(&pool.lock);
     pool.files = files > 0 ? files : 1;
+    pool.go_on = behind_refused;
     pthread_mutex_unlock(&pool.lock);
 }
 
@@ -479,6 +481,7 @@ static wo_child_request request_for(const char *path, const char *library, const
     wo_child_request request = {.mark = WO_CHILD_MARK, .part = -1};
     pthread_mutex_lock(&pool.lock);
     request.files = pool.files;
+    request.go_on = pool.go_on;
     pthread_mutex_unlock(&pool.lock);
     snprintf(request.library, sizeof request.library, "%s", library);
     for (size_t i = 0; extension[i] && i + 1 < sizeof request.extension; i++)

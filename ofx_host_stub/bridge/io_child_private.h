@@ -28,6 +28,7 @@ typedef struct wo_child_request {
     int32_t part;          /* of an EXR; -1 = every part */
     uint32_t headers_only; /* 0 or 1 */
     uint32_t files;        /* that one process reads before it ends */
+    uint32_t go_on;        /* behind a file that is refused, 0 or 1 */
     uint64_t promised;     /* bytes of pixels as floats by the file's own head, 0 = not known */
     char library[16];      /* the format, as OpenImageIO calls it */
     char extension[8];     /* and people do */

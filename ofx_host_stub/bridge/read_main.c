@@ -147,6 +147,7 @@ static wo_status send_fault(void *to, size_t index, const char *text, wo_error *
     return send_record(to, WO_CHILD_FAULT, (uint32_t)index, text, strlen(text), error);
 }
 
+/* False when the process should end. */
 static bool serve(reading *r)
 {
     struct stat about;
@@ -161,7 +162,7 @@ static bool serve(reading *r)
                                   NULL) == WO_OK;
     close(r->file);
     close(r->pipe);
-    return sent;
+    return sent && (status == WO_OK || r->request.go_on);
 }
 
 /* The socket. */

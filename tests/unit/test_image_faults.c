@@ -388,7 +388,7 @@ static void no_error_is_wanted(void **state)
 
 int main(void)
 {
-    wo_io_files_per_process(64);
+    wo_io_files_per_process(64, true);
 #define TEST(name) cmocka_unit_test_setup(name, empty_folder)
     const struct CMUnitTest tests[] = {
         TEST(cut_files),    TEST(spoilt_files),         TEST(garbage),

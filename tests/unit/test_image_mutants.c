@@ -435,6 +435,6 @@ int main(int count, char **words)
     cases_wanted = count > 1 ? strtol(words[1], NULL, 10) : cases_of(1600, 400);
     first_seed = count > 2 ? strtoull(words[2], NULL, 10) : 1;
     only = count > 3 ? words[3] : NULL;
-    wo_io_files_per_process(256);
+    wo_io_files_per_process(256, true);
     return cmocka_run_group_tests(tests, make_folder, count > 1 ? NULL : remove_folder);
 }
