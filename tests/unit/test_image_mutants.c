@@ -197,8 +197,11 @@ static void make_seeds(void)
     static const char *const packings[] = {"none", "rle", "zips", "zip", "piz"};
     for (size_t i = 0; i < WO_COUNT(packings); i++)
         write_seed("a.exr", packings[i], i % 2 ? WO_IO_HALF : WO_IO_SINGLE, i < 2 ? 2 : 4);
+#if !defined(__SANITIZE_ADDRESS__)
+    /* through the other library, which takes what memory it likes where there is no limit of it */
     add_seed("a.exr", dwa_file, sizeof dwa_file);
     add_seed("a.exr", b44_file, sizeof b44_file);
+#endif
     add_seed("a.exr", deep_tiles, sizeof deep_tiles);
     add_seed("a.exr", deep_lines, sizeof deep_lines);
 }
