@@ -57,13 +57,13 @@ present fresh.exr
 # What a plugin says when it fails is not cut.
 WO_TEST_REFUSES=$(printf '%03000d' 7)
 export WO_TEST_REFUSES
-expect 1 render Fresh --size 8x8 -o refused.exr
+expect 1 render Fresh --size 8x8 -o refused.exr --plugin-path "$plugins/fresh"
 says "plugin.*$WO_TEST_REFUSES\$"
 absent refused.exr
 unset WO_TEST_REFUSES
 
 # Everything: the list is made, and says who fails and why.
-expect 0 list --plugin-wait 3
+expect 0 list --plugin-wait 2
 shows '^org.wideopen.LensBlur '
 shows '^org.wideopen.test.Good '
 shows '^org.wideopen.test.Fresh '
@@ -79,16 +79,19 @@ checks=$((checks + 1))
 checks=$((checks + 1))
 at=$(awk '/Generator$/ { print match($0, /(Filter, General, )?Generator$/) }' stdout | sort -u | wc -l)
 [ "$at" -eq 1 ] || fail "the last column begins at $at places: $(cat stdout)"
-expect 0 list --json --plugin-wait 1
+OFX_PLUGIN_PATH=$plugins/faulty
+expect 0 list --json
 is_json stdout
 grep -q '"failures": \[' stdout || fail "list --json tells no failures"
 
 # A plugin that is asked for and fails is named; the path to it is not what kills the program.
-expect 2 describe org.wideopen.test.DescribeCrash.Middle --plugin-wait 2
+expect 2 describe org.wideopen.test.DescribeCrash.Middle
 says 'no plugin "org.wideopen.test.DescribeCrash.Middle"'
 says 'failed: .*DescribeCrash.Middle described itself'
 expect 0 describe org.wideopen.test.DescribeCrash.Last
+OFX_PLUGIN_PATH=$plugins/hanging
 expect 2 render LoadHang --size 8x8 -o nothing.exr --plugin-wait 1
+says 'failed: .*/LoadHang.ofx.bundle: was killed'
 absent nothing.exr
 
 # The cache can be put elsewhere, or off.
