@@ -6,6 +6,8 @@
 
 enum { POINTS = 256, HALVINGS = 6 };
 
+#define GOLDEN_ANGLE 2.399963229728653
+
 bool wo_lens_ray_counts(const wo_lens_model *model, const wo_lens_request *request,
                         const wo_model_ray *ray)
 {
@@ -20,8 +22,8 @@ static double lit_part(const wo_lens_model *model, const wo_lens_request *reques
     wo_model_ray ray[POINTS];
     for (int i = 0; i < POINTS; i++) {
         const double r = sqrt((i + 0.5) / POINTS);
-        u[i][0] = r * cos(2.399963229728653 * i);
-        u[i][1] = r * sin(2.399963229728653 * i);
+        u[i][0] = r * cos(GOLDEN_ANGLE * i);
+        u[i][1] = r * sin(GOLDEN_ANGLE * i);
     }
     wo_lens_model_rays(model, h, &model->reference_nm, 1, (const double(*)[2])u, POINTS, ray);
     int lit = 0;
@@ -79,4 +81,45 @@ double wo_lens_lit_field(const wo_lens_lit *lit, double part)
     while (last > 0 && lit->part[last] < part)
         last--;
     return lit->field * last / (WO_LIT_FIELDS - 1);
+}
+
+void wo_iris_place(int i, int count, double u[2])
+{
+    const double r = i % 4 == 0 ? 1 : sqrt((i + 0.5) / count);
+    u[0] = r * cos(GOLDEN_ANGLE * i);
+    u[1] = r * sin(GOLDEN_ANGLE * i);
+}
+
+void wo_lens_survey(const wo_lens_model *model, const wo_lens_request *request, double field,
+                    double *colour_px, double *beyond)
+{
+    enum { FIELDS = 5, PLACES = 64 };
+    double u[PLACES][2];
+    wo_model_ray ray[WO_LINES_MAX][PLACES];
+    int seen = 0;
+    int far = 0;
+    *colour_px = 0;
+    for (int i = 0; i < PLACES; i++)
+        wo_iris_place(i, PLACES, u[i]);
+    for (int k = 0; k < FIELDS; k++) {
+        const double h = field * k / (FIELDS - 1);
+        for (int line = 0; line < request->lines; line++)
+            wo_lens_model_rays(model, h, &request->nm[line], 1, (const double(*)[2])u, PLACES,
+                               ray[line]);
+        for (int line = 0; line < request->lines; line++)
+            for (int i = 0; i < PLACES; i++) {
+                const wo_model_ray *const first = &ray[0][i];
+                const wo_model_ray *const r = &ray[line][i];
+                const bool counts = wo_lens_ray_counts(model, request, r);
+                const bool open = wo_model_ray_clip(model, r) <= 1;
+                seen += open;
+                far += open && !counts;
+                const double da = hypot(r->a[0] - first->a[0], r->a[1] - first->a[1]);
+                const double db = hypot(r->b[0] - first->b[0], r->b[1] - first->b[1]);
+                if (counts && wo_lens_ray_counts(model, request, first))
+                    *colour_px =
+                        fmax(*colour_px, request->focal_px * (da + request->blur_dioptres * db));
+            }
+    }
+    *beyond = seen > 0 ? (double)far / seen : 0;
 }

@@ -59,6 +59,15 @@ WO_NODISCARD wo_status wo_lens_lit_measure(const wo_context *context, const wo_l
 /* The outermost field of which at least so much is lit. */
 double wo_lens_lit_field(const wo_lens_lit *lit, double part);
 
+/* Place number i of count in the iris, to look at it: evenly all over, and of every four one on its
+   edge. */
+void wo_iris_place(int i, int count, double u[2]);
+
+/* Of rays over the field: how far the wavelengths part from the first, px, and which part of those
+   that get through go beyond max_px. */
+void wo_lens_survey(const wo_lens_model *model, const wo_lens_request *request, double field,
+                    double *colour_px, double *beyond);
+
 typedef struct wo_lens_table {
     int lines, nodes, degree, clips;
     bool edge; /* is there a place in the iris without rays? */

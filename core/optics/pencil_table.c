@@ -261,66 +261,17 @@ static void make_points(wo_table_pencils *p, const wo_aperture_shape *shape)
     }
 }
 
-/* Places in the iris to look at: of every four one on its edge. */
-enum { POINTS = 256 };
-static void survey_point(int i, double u[2])
-{
-    const double r = i % 4 == 0 ? 1 : sqrt((i + 0.5) / POINTS);
-    u[0] = r * cos(2.399963229728653 * i);
-    u[1] = r * sin(2.399963229728653 * i);
-}
-
-/* Of rays of the model, some over the field: how far colours part, how many of them go too far. */
-static void survey_model(const wo_table_pencils *p, const wo_lens_request *request,
-                         wo_table_facts *facts)
-{
-    enum { FIELDS = 5, EVERY = 4 };
-    double u[POINTS / EVERY][2];
-    wo_model_ray ray[WO_LINES_MAX][POINTS / EVERY];
-    const double f = request->focal_px;
-    int seen = 0;
-    int beyond = 0;
-    facts->colour_px = 0;
-    for (int i = 0; i < POINTS / EVERY; i++)
-        survey_point(EVERY * i + i % EVERY, u[i]);
-    for (int k = 0; k < FIELDS; k++) {
-        const double h = p->lit.field * k / (FIELDS - 1);
-        for (int line = 0; line < request->lines; line++)
-            wo_lens_model_rays(p->model, h, &request->nm[line], 1, (const double(*)[2])u,
-                               POINTS / EVERY, ray[line]);
-        for (int i = 0; i < POINTS / EVERY; i++) {
-            const bool first = wo_lens_ray_counts(p->model, request, &ray[0][i]);
-            for (int line = 0; line < request->lines; line++) {
-                const wo_model_ray *r = &ray[line][i];
-                const bool counts = wo_lens_ray_counts(p->model, request, r);
-                seen += wo_model_ray_clip(p->model, r) <= 1;
-                beyond += wo_model_ray_clip(p->model, r) <= 1 && !counts;
-                double d[4];
-                for (int c = 0; c < 2; c++) {
-                    d[c] = f * (r->a[c] - ray[0][i].a[c]);
-                    d[2 + c] = f * (r->b[c] - ray[0][i].b[c]);
-                }
-                if (first && counts)
-                    facts->colour_px =
-                        fmax(facts->colour_px,
-                             hypot(d[0], d[1]) + request->blur_dioptres * hypot(d[2], d[3]));
-            }
-        }
-    }
-    facts->beyond = seen > 0 ? (double)beyond / seen : 0;
-}
-
 /* Longest a and b of rays that get through, over the field; are they all alike in weight? */
 static void survey(wo_table_pencils *p, wo_table_facts *facts)
 {
-    enum { FIELDS = 17 };
+    enum { FIELDS = 17, POINTS = 256 };
     float s[POINTS];
     float t[POINTS];
     float out[5][POINTS];
     const wo_table_rays rays = {out[0], out[1], out[2], out[3], out[4], NULL};
     for (int i = 0; i < POINTS; i++) {
         double u[2];
-        survey_point(i, u);
+        wo_iris_place(i, POINTS, u);
         s[i] = (float)u[0];
         t[i] = (float)u[1];
     }
@@ -389,7 +340,7 @@ static wo_status know_lens(const wo_context *context, int wavelengths, wo_table_
                                .max_px = o->max_reach};
     WO_TRY(wo_lens_lit_measure(context, p->model, &request, &p->lit, error));
     p->field_lit = p->lit.field;
-    survey_model(p, &request, facts);
+    wo_lens_survey(p->model, &request, p->lit.field, &facts->colour_px, &facts->beyond);
     if (wavelengths == 1 || facts->colour_px <= WO_COLOUR_PX) {
         wo_bands_make(1, &p->bands);
         p->bands.nm[0] = p->model->reference_nm;

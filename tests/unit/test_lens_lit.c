@@ -211,14 +211,14 @@ static void surfaces_stop_light(void **state)
     lit_by_search("petzval_laikin_f14", 1.3, 0);
 }
 
-/* A lens with a needle: rays within 0.004 of one place of the iris go far astray, which no survey
+/* A lens with a needle: rays within 0.02 of one place of the iris go far astray, which no survey
    finds. */
 static bool needle_ray(const void *self, double h, const double u[2], double nm, wo_model_ray *ray)
 {
     (void)self;
     (void)h;
     (void)nm;
-    const bool astray = hypot(u[0] - 0.4321, u[1] - 0.1234) < 0.004;
+    const bool astray = hypot(u[0] - 0.4321, u[1] - 0.1234) < 0.02;
     for (int k = 0; k < 2; k++) {
         ray->a[k] = astray ? 0.2 : 0;
         ray->b[k] = (astray ? 0.5 : 0.01) * u[k];
@@ -254,6 +254,7 @@ static void reach_is_kept(void **state)
                      WO_OK);
     assert_true(facts.exact);
     const wo_lens lens = wo_table_pencils_lens(pencils);
+    assert_at_most(lens.reach(lens.self, 1, 1), 20); /* the needle was not found: it is not known */
     static wo_pencil_room room;
     static float s[WO_PENCIL_PIECE + WO_LANES], t[WO_PENCIL_PIECE + WO_LANES],
         out[6][WO_PENCIL_PIECE + WO_LANES];
@@ -276,8 +277,8 @@ static void reach_is_kept(void **state)
     rng random = {5};
     for (int n = 0; n < 200; n++) {
         for (int i = 0; i < WO_PENCIL_PIECE; i++) {
-            s[i] = (float)(0.4321 + rng_range(&random, -0.02, 0.02));
-            t[i] = (float)(0.1234 + rng_range(&random, -0.02, 0.02));
+            s[i] = (float)(0.4321 + rng_range(&random, -0.04, 0.04));
+            t[i] = (float)(0.1234 + rng_range(&random, -0.04, 0.04));
         }
         lens.iris.rays(lens.self, 320, 180, 0, s, t, WO_PENCIL_PIECE, &iris);
         for (int i = 0; i < WO_PENCIL_PIECE; i++) {
