@@ -79,7 +79,7 @@ bool wo_io_same_format(const char *path, const char *other);
    so a damaged file cannot do more than end that: WO_ERR_FORMAT, "the PNG reader crashed". The
    fork may take 256 MiB + 3 times the pixels + 2 times the file of memory, 10 s + 1 s for each 16
    MiB of pixels of processor time, four times that and 30 s by the clock without progress, and
-   write no file; under sanitizers one allocation is limited to 4 GiB instead. Their pictures come
+   write no file; under sanitizers one allocation is limited to 1 GiB instead. Their pictures come
    upright: what "Orientation" says of stored rows and columns is done and made 1. EXR: tiled parts
    give their full resolution. Deep parts are flattened: R, G, B, A (of every layer) are composited
    front to back by Z with A, everything else is that of the nearest sample, and the part carries

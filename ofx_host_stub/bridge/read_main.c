@@ -27,7 +27,7 @@ enum { HAS_MEMORY_LIMIT = 0 };
 const char *__asan_default_options(void);
 const char *__asan_default_options(void)
 {
-    return "allocator_may_return_null=1:max_allocation_size_mb=4096:detect_leaks=0:"
+    return "allocator_may_return_null=1:max_allocation_size_mb=1024:detect_leaks=0:"
            "handle_segv=0:handle_sigbus=0:handle_sigfpe=0:handle_abort=0:abort_on_error=1";
 }
 #else
