@@ -165,6 +165,9 @@ static wo_status load(const wo_context *context, const wo_io_file *file, wo_penc
     const wo_io_part *const density = find_part(file, "density");
     const wo_io_part *const height = find_part(file, "height");
     WO_TRY(check_shape(density, height, error));
+    for (size_t i = 0; i < file->part_count; i++)
+        if (file->parts[i].fault)
+            return wo_fail(error, WO_ERR_FORMAT, "%s", file->parts[i].fault);
     wo_error found = {WO_OK, ""};
     const wo_status status =
         wo_pencil_map_new(context, wo_rect_height(density->data_window),
