@@ -18,7 +18,7 @@ static const wo_usage usage = {
     .positionals = "FILE",
     .positionals_min = 1,
     .positionals_max = 64,
-    .after = "Example:\n  wideopen json report.json frames.0.report.rays frames.0.seconds\n",
+    .after = "Example:\n  wideopen json report.json frames.0.rays frames.0.seconds.render\n",
 };
 
 /* The whole stream as a malloc-ed string; NULL when it cannot be read or holds a zero byte. */

@@ -16,7 +16,9 @@ static const wo_usage usage = {
     .command = "list",
     .synopsis = "[--json] [--plugin-path DIR]",
     .about = "Lists every plugin that is found: identifier, version, label and contexts. Of two "
-             "with one identifier the first found wins, unless the other is newer. On stderr: "
+             "with one identifier and major version the first found is listed, unless the other's "
+             "minor version is higher; render and describe take the one of the nearest folder, in "
+             "it that of the bundle with its name, then the highest version. On stderr: "
              "which binaries and plugins fail and why, and which break the rules of OpenFX. What "
              "fails does not end the command: its exit code says whether it could make the list.",
     .options = options,

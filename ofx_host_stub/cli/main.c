@@ -30,10 +30,10 @@ static void print_help(FILE *out)
           out);
     for (size_t i = 0; i < WO_COUNT(commands); i++)
         fprintf(out, "  %-10s %s\n", commands[i].name, commands[i].summary);
-    fputs("\nPlugins are looked for in --plugin-path, in the folder Plugins beside this program "
-          "and in\n"
-          "OFX_PLUGIN_PATH; what is known of them is kept in WIDEOPEN_PLUGIN_CACHE, which may be "
-          "off.\n"
+    fputs("\nPlugins are looked for in --plugin-path, in the folder Plugins beside this program, "
+          "in\n"
+          "OFX_PLUGIN_PATH and in the system's folder; what is known of them is kept in\n"
+          "WIDEOPEN_PLUGIN_CACHE, which may be off.\n"
           "Exit code: 0 done, 1 a render or a file failed, 2 the command line makes no sense, 130\n"
           "interrupted. Messages go to stderr, data to stdout.\n",
           out);
