@@ -109,6 +109,21 @@ size_t wo_session_violations(wo_host *host)
     return count;
 }
 
+/* Those that speak of a name, and how many others there are. */
+static void tell_failures_of(const wo_host *host, const char *name)
+{
+    size_t others = 0;
+    for (size_t i = 0; i < wo_host_failure_count(host); i++) {
+        if (strstr(wo_host_failure(host, i), name))
+            wo_message("failed: %s", wo_host_failure(host, i));
+        else
+            others++;
+    }
+    if (others)
+        wo_message("%zu %splugins or binaries failed; wideopen list names them", others,
+                   others < wo_host_failure_count(host) ? "other " : "");
+}
+
 const wo_host_plugin *wo_session_plugin(wo_host *host, const char *name)
 {
     const wo_host_plugin *plugin = NULL;
@@ -118,10 +133,10 @@ const wo_host_plugin *wo_session_plugin(wo_host *host, const char *name)
         return plugin;
     wo_message("%s", error.text);
     if (status == WO_ERR_NOT_FOUND)
-        wo_session_failures(host);
+        tell_failures_of(host, name);
     if (status == WO_ERR_NOT_FOUND)
-        wo_message("wideopen list shows what is found in --plugin-path, OFX_PLUGIN_PATH and the "
-                   "folder Plugins beside this program");
+        wo_message("wideopen list shows what is found in --plugin-path, the folder Plugins beside "
+                   "this program, OFX_PLUGIN_PATH and the system's folder");
     return NULL;
 }
 

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 /* ------------------------------------------------------------------------------------- binaries */
@@ -271,10 +272,31 @@ static void list_name(char *list, size_t size, const char *name)
         snprintf(list + used, size - used, ", ...");
 }
 
-/* The binaries that were asked and what they have, for the texts of misses. */
-static wo_status miss(const wo_host *host, const match *best, wo_error *error)
+/* Is a name part of an identifier, in whatever case? */
+static bool resembles(const char *identifier, const char *name)
 {
-    char list[180] = "";
+    const size_t length = strlen(name);
+    for (; *identifier; identifier++)
+        if (strncasecmp(identifier, name, length) == 0)
+            return true;
+    return false;
+}
+
+/* There may be several versions of one plugin. */
+static bool is_listed(const char *list, const char *name)
+{
+    const size_t length = strlen(name);
+    for (const char *at = strstr(list, name); at; at = strstr(at + 1, name))
+        if ((at == list || at[-1] == ' ') && (at[length] == ',' || !at[length]))
+            return true;
+    return false;
+}
+
+/* The binaries that were asked and what they have, for the texts of misses; alike: only what
+   resembles the name. Returns how many there are. */
+static size_t list_asked(const wo_host *host, const match *best, bool alike, char *list,
+                         size_t size)
+{
     size_t count = 0;
     for (size_t i = 0; i < host->binary_count; i++) {
         const wo_binary *binary = host->binaries[i];
@@ -282,15 +304,30 @@ static wo_status miss(const wo_host *host, const match *best, wo_error *error)
             continue;
         for (size_t k = 0; k < binary->catalogue.count; k++) {
             const char *identifier = binary->catalogue.items[k].info.identifier;
+            if (best->ambiguous && strcmp(last_part(identifier), best->name) != 0)
+                continue;
+            if (alike && !resembles(identifier, best->name))
+                continue;
             count++;
-            if (!best->ambiguous || strcmp(last_part(identifier), best->name) == 0)
-                list_name(list, sizeof list, identifier);
+            if (!is_listed(list, identifier))
+                list_name(list, size, identifier);
         }
     }
-    if (best->ambiguous)
+    return count;
+}
+
+static wo_status miss(const wo_host *host, const match *best, wo_error *error)
+{
+    char list[180] = "";
+    if (best->ambiguous) {
+        list_asked(host, best, false, list, sizeof list);
         return wo_fail(error, WO_ERR_ARGUMENT, "\"%.40s\" may be any of: %s", best->name, list);
-    return wo_fail(error, WO_ERR_NOT_FOUND, "no plugin \"%.40s\"; there %s%s", best->name,
-                   count ? "is: " : "are none at all", list);
+    }
+    const char *words = "did you mean ";
+    if (!list_asked(host, best, true, list, sizeof list))
+        words = list_asked(host, best, false, list, sizeof list) ? "there is: "
+                                                                 : "there are none at all";
+    return wo_fail(error, WO_ERR_NOT_FOUND, "no plugin \"%.40s\"; %s%s", best->name, words, list);
 }
 
 /* Loads the plugin that was found into this process. *stale: the cache did not tell the truth. */

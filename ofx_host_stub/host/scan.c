@@ -141,13 +141,15 @@ static void scan(wo_host *host, const char *directory, folders *seen, int depth,
             wo_note(host, "%s: out of memory", directory);
             break;
         }
-        if (stat(path, &status) == 0 && S_ISDIR(status.st_mode)) {
-            if (length >= sizeof bundle_end &&
-                strcmp(name + length - (sizeof bundle_end - 1), bundle_end) == 0)
-                scan_bundle(host, path, name);
-            else
-                scan(host, path, seen, depth + 1, true);
-        }
+        const bool bundle = length >= sizeof bundle_end &&
+                            strcmp(name + length - (sizeof bundle_end - 1), bundle_end) == 0;
+        const bool folder = stat(path, &status) == 0 && S_ISDIR(status.st_mode);
+        if (bundle && folder)
+            scan_bundle(host, path, name);
+        else if (bundle)
+            wo_note(host, "%s: a bundle is a folder, this is none", path);
+        else if (folder)
+            scan(host, path, seen, depth + 1, true);
         free(path);
     }
     wo_texts_clear(&names);

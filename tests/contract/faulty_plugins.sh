@@ -88,6 +88,9 @@ grep -q '"failures": \[' stdout || fail "list --json tells no failures"
 expect 2 describe org.wideopen.test.DescribeCrash.Middle
 says 'no plugin "org.wideopen.test.DescribeCrash.Middle"'
 says 'failed: .*DescribeCrash.Middle described itself'
+says 'other plugins or binaries failed; wideopen list names them'
+checks=$((checks + 1))
+[ "$(grep -c failed: stderr)" -eq 1 ] || fail "failures that nobody asked for: $(cat stderr)"
 expect 0 describe org.wideopen.test.DescribeCrash.Last
 OFX_PLUGIN_PATH=$plugins/hanging
 expect 2 render LoadHang --size 8x8 -o nothing.exr --plugin-wait 1

@@ -122,6 +122,7 @@ static void hostile_files(void **state)
     folder("a/Folder.ofx.bundle/Contents/" WO_TEST_ARCH "/Folder.ofx");
     file("a/Loose.ofx", bytes, count);
     file("a/File.ofx.bundle", "x", 1);
+    link_to("a/Lost.ofx.bundle", "nowhere");
     folder("a/.ofx.bundle");
     wo_host *host = scan();
     assert_int_equal(wo_host_plugin_count(host), 0);
@@ -132,8 +133,10 @@ static void hostile_files(void **state)
     assert_true(noted(host, "Hollow.ofx.bundle: no file Contents/"));
     assert_true(noted(host, "OtherMachine.ofx.bundle: no file Contents/"));
     assert_true(noted(host, "Folder.ofx.bundle: no file Contents/"));
-    assert_int_equal(wo_host_note_count(host), 7);
-    assert_null(wo_host_note(host, 7));
+    assert_true(noted(host, "File.ofx.bundle: a bundle is a folder"));
+    assert_true(noted(host, "Lost.ofx.bundle: a bundle is a folder"));
+    assert_int_equal(wo_host_note_count(host), 9);
+    assert_null(wo_host_note(host, 9));
     const wo_host_plugin *plugin = NULL;
     wo_error error = {0};
     assert_int_equal(wo_host_find_plugin(host, "Any", &plugin, &error), WO_ERR_NOT_FOUND);
@@ -196,7 +199,9 @@ static void odd_plugins_are_left_out(void **state)
     assert_int_equal(wo_host_find_plugin(host, "Byte", &plugin, &error), WO_ERR_ARGUMENT);
     assert_non_null(strstr(error.text, "org.wideopen.test.Byte, org.other.Byte"));
     assert_int_equal(wo_host_find_plugin(host, "Sharp", &plugin, &error), WO_ERR_NOT_FOUND);
-    assert_non_null(strstr(error.text, "org.wideopen.test.Byte, org.other.Byte"));
+    assert_non_null(strstr(error.text, "there is: org.wideopen.test.Byte, org.other.Byte"));
+    assert_int_equal(wo_host_find_plugin(host, "TEST.by", &plugin, &error), WO_ERR_NOT_FOUND);
+    assert_string_equal(error.text, "no plugin \"TEST.by\"; did you mean org.wideopen.test.Byte");
     ok(wo_host_find_plugin(host, "org.wideopen.test.Byte", &plugin, &ok_error));
     assert_int_equal(plugin->version_minor, 1);
     assert_false(plugin->float_pixels);
