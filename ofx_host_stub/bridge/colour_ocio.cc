@@ -10,12 +10,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <sstream>
 #include <string>
+#include <unistd.h>
 #include <vector>
 
 namespace OCIO = OCIO_NAMESPACE;
@@ -68,6 +70,11 @@ wo_status create(const char *config, wo_colour **colour, wo_error *error)
     OCIO::SetLoggingLevel(OCIO::LOGGING_LEVEL_NONE);
     if (path && *path) {
         made->origin = path;
+        const int missing = access(path, R_OK) == 0 ? 0 : errno;
+        if (missing && std::strncmp(path, "ocio://", 7) != 0)
+            return wo_fail(
+                error, WO_ERR_LIBRARY, "cannot read the OpenColorIO configuration %s%s: %s", path,
+                config && *config ? "" : " of the variable OCIO", std::strerror(missing));
         made->config = OCIO::Config::CreateFromFile(path);
     } else {
         std::istringstream text(wo_own_config);
@@ -262,7 +269,7 @@ wo_status of_file(const wo_colour *colour, const char *path, const wo_colour_wor
 
 extern "C" wo_status wo_colour_create(const char *config, wo_colour **colour, wo_error *error)
 {
-    return wo_guard(error, __func__, [&]() -> wo_status {
+    return wo_guard(error, "the OpenColorIO configuration", [&]() -> wo_status {
         *colour = nullptr;
         return create(config, colour, error);
     });

@@ -56,9 +56,11 @@ static wo_status check_request(const char *path, const wo_io_part *parts, size_t
                       (depth == WO_IO_SHORT && found->has_short) ||
                       (depth == WO_IO_SINGLE && found->has_single);
     if (!fits)
-        return wo_fail(error, WO_ERR_UNSUPPORTED, "%s: %s holds%s%s%s samples only",
-                       wo_io_shown(path), found->extension, found->has_byte ? " 8-bit" : "",
-                       found->has_short ? " 16-bit" : "", found->has_single ? " float" : "");
+        return wo_fail(
+            error, WO_ERR_UNSUPPORTED, "%s: the samples of %s are %s%s%s only; see --bits",
+            wo_io_shown(path), found->extension, found->has_byte ? "8" : "",
+            found->has_short ? (found->has_byte ? " or 16" : "16") : "",
+            found->has_single ? (found->has_byte || found->has_short ? " or float" : "float") : "");
     *format = found;
     return WO_OK;
 }

@@ -3,6 +3,7 @@
 #include "picture_file.h"
 #include "render_camera.h"
 #include "render_job.h"
+#include "sequence.h"
 #include "session.h"
 
 #include <math.h>
@@ -180,25 +181,35 @@ static int read_numbers(wo_render_job *job)
     return code == WO_EXIT_OK ? read_bits(job) : code;
 }
 
-/* Is NAME=FILE[:CHANNELS] a sequence? */
-static bool is_sequence(const char *clip)
+/* Is NAME=FILE[:CHANNELS] a sequence? *there is 0 where it has no file. */
+static bool is_sequence(const char *clip, wo_sequence *there)
 {
     const char *const equals = strchr(clip, '=');
     char *file, *channels;
     if (wo_picture_split(equals ? equals + 1 : clip, 1, &file, &channels, NULL) != WO_OK)
         return false;
     const bool result = wo_io_is_sequence(file);
+    if (!result || !wo_sequence_look(file, 1, there))
+        *there = (wo_sequence){0};
     free(file);
     free(channels);
     return result;
 }
 
-static bool any_sequence(const wo_args *args)
+static bool any_sequence(const wo_args *args, wo_sequence *there)
 {
     for (int i = 0; i < wo_args_count(args, "--clip"); i++)
-        if (is_sequence(wo_args_value(args, "--clip", i)))
+        if (is_sequence(wo_args_value(args, "--clip", i), there))
             return true;
     return false;
+}
+
+static int want_frames(const wo_sequence *there)
+{
+    if (!there->last && !there->first)
+        return wo_usage_fault("render", "a clip is a sequence: say which frames, --frames 1-100");
+    return wo_usage_fault("render", "a clip is a sequence: say which frames, as in --frames %d-%d",
+                          there->first, there->last);
 }
 
 static int read_frames(wo_render_job *job)
@@ -206,8 +217,9 @@ static int read_frames(wo_render_job *job)
     const char *const text = wo_args_value(job->args, "--frames", 0);
     const char *const output = wo_args_value(job->args, "--output", 0);
     wo_error error = {0};
-    if (!text && any_sequence(job->args))
-        return wo_usage_fault("render", "a clip is a sequence: say which frames, --frames 1-100");
+    wo_sequence there;
+    if (!text && any_sequence(job->args, &there))
+        return want_frames(&there);
     const wo_status status = wo_frames_read(text ? text : "1", &job->frames, &error);
     if (status == WO_ERR_NOMEM)
         return wo_failure(&error);

@@ -14,8 +14,10 @@ static int unknown_clip(const wo_render_job *job, const char *name)
         if (!job->context->clips[i].output)
             used += (size_t)snprintf(there + used, sizeof there - used, "%s%s", used ? ", " : "",
                                      job->context->clips[i].name);
-    return wo_usage_fault("render", "%s has no clip \"%s\"; it has: %s", job->plugin->identifier,
-                          name, there);
+    char help[256];
+    return wo_usage_fault(wo_render_help(job, help, sizeof help),
+                          "%s has no clip \"%s\"; it has: %s", job->plugin->identifier, name,
+                          there);
 }
 
 static int add_clip(wo_render_job *job, const char *text)
@@ -63,9 +65,11 @@ int wo_render_add_clips(wo_render_job *job)
         }
     for (size_t i = 0; i < job->context->clip_count; i++) {
         const wo_host_clip_info *const clip = &job->context->clips[i];
+        char help[256];
         if (!clip->output && !clip->optional && !wo_inputs_find(job->inputs, clip->name))
-            return wo_usage_fault("render", "%s needs clip %s: give --clip %s=FILE",
-                                  job->plugin->identifier, clip->name, clip->name);
+            return wo_usage_fault(wo_render_help(job, help, sizeof help),
+                                  "%s needs clip %s: give --clip %s=FILE", job->plugin->identifier,
+                                  clip->name, clip->name);
     }
     for (int i = 0; i < wo_args_count(job->args, "--raw"); i++) {
         const char *const name = wo_args_value(job->args, "--raw", i);

@@ -128,11 +128,7 @@ static wo_status read_picture(wo_input *input, int frame, wo_input_picture *p, w
     const wo_io_part *part = NULL;
     WO_TRY(wo_io_frame_path(input->pattern, frame, path, sizeof path, error));
     if (input->sequence && !wo_picture_exists(input->pattern, frame))
-        return wo_fail(
-            error, WO_ERR_IO,
-            "there is no %s; --missing-frames skip leaves such a frame out, hold repeats "
-            "the one before it",
-            path);
+        return wo_sequence_lacks(input->pattern, frame, path, error);
     p->frame = frame;
     WO_TRY(wo_io_read(path, true, &p->file, error));
     if (is_large(p->file)) {

@@ -61,6 +61,9 @@ WO_NODISCARD wo_status wo_render_make_instance(wo_render_job *job, wo_error *err
 /* Sets what --set says. Returns an exit code and has said what is wrong. */
 int wo_render_set_params(wo_render_job *job);
 
+/* "render PLUGIN": the command whose --help lists clips and parameters, for wo_usage_fault. */
+const char *wo_render_help(const wo_render_job *job, char *buffer, size_t size);
+
 /* Makes project and instance anew where the files of this frame are of another format than those
    they were made for: a frame must not depend on the one a job began with. */
 WO_NODISCARD wo_status wo_render_follow_format(wo_render_job *job, wo_error *error);

@@ -36,6 +36,9 @@ static wo_status check_folder(const char *path, wo_error *error)
     if (stat(folder, &info) != 0 || !S_ISDIR(info.st_mode))
         return wo_fail(error, WO_ERR_IO, "cannot write %s: there is no folder %s; make it first",
                        path, folder);
+    if (stat(path, &info) == 0 && !S_ISREG(info.st_mode))
+        return wo_fail(error, WO_ERR_IO, "cannot write %s: it exists and is no ordinary file",
+                       path);
     if (access(folder, W_OK) != 0)
         return wo_fail(error, WO_ERR_IO, "cannot write %s: the folder %s is write-protected", path,
                        folder);

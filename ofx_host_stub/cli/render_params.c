@@ -6,6 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+const char *wo_render_help(const wo_render_job *job, char *buffer, size_t size)
+{
+    snprintf(buffer, size, "render %s", job->plugin->identifier);
+    return buffer;
+}
+
 static int unknown_param(const wo_render_job *job, const char *name)
 {
     const size_t count = job->context->param_count;
@@ -18,8 +24,10 @@ static int unknown_param(const wo_render_job *job, const char *name)
             names[used++] = job->context->params[i].script_name;
     const int hits = names ? wo_near_words(name, names, used, near, sizeof near) : 0;
     free(names);
-    return wo_usage_fault("render", "%s has no parameter \"%s\"; %s %s", job->plugin->identifier,
-                          name, hits ? "did you mean" : "there are", near);
+    char help[256];
+    return wo_usage_fault(wo_render_help(job, help, sizeof help),
+                          "%s has no parameter \"%s\"; %s %s", job->plugin->identifier, name,
+                          hits ? "did you mean" : "there are", near);
 }
 
 /* Writes keys without the name that may stand before each "@"; keys has room for text. */
@@ -61,8 +69,10 @@ static int set_param(wo_render_job *job, const char *text)
     free(value);
     if (status == WO_OK)
         return WO_EXIT_OK;
-    return status == WO_ERR_NOMEM ? wo_failure(&error)
-                                  : wo_usage_fault("render", "--set %s: %s", text, error.text);
+    if (status == WO_ERR_NOMEM)
+        return wo_failure(&error);
+    char help[256];
+    return wo_usage_fault(wo_render_help(job, help, sizeof help), "--set %s: %s", text, error.text);
 }
 
 int wo_render_set_params(wo_render_job *job)

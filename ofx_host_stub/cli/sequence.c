@@ -113,3 +113,15 @@ bool wo_sequence_look(const char *pattern, int near, wo_sequence *found)
     closedir(directory);
     return any;
 }
+
+wo_status wo_sequence_lacks(const char *pattern, int frame, const char *path, wo_error *error)
+{
+    wo_sequence there;
+    if (!wo_sequence_look(pattern, frame, &there))
+        return wo_fail(error, WO_ERR_IO, "there is no %s, nor any other frame of %s", path,
+                       pattern);
+    return wo_fail(error, WO_ERR_IO,
+                   "there is no %s (frames %d to %d); --missing-frames skip leaves such a frame "
+                   "out, hold repeats the one before it",
+                   path, there.first, there.last);
+}

@@ -71,6 +71,8 @@ cp stdout describe.json
 value describe.json identifier org.wideopen.LensBlur
 expect 2 describe LensBlur --context Paint
 says Paint
+expect 2 describe lensblur
+says 'no plugin "lensblur"; did you mean org.wideopen.LensBlur$'
 expect 0 render LensBlur --help
 shows fStop
 shows 'default'
@@ -342,7 +344,7 @@ says 0003
 value report.json ok false
 absent late.0003.exr
 sequence 2 -o 'out.####.exr'
-says '--frames'
+says 'as in --frames 1-2'
 sequence 2 --frames 1-2 -o out.exr
 says '####'
 sequence 2 --frames 2-1 -o 'out.####.exr'
@@ -374,6 +376,7 @@ blur 2 -o x.exr --raw Mask
 blur 2 -o x.exr surplus
 expect 2 render LensBlur -o x.exr
 says 'needs clip Source'
+says 'wideopen render org.wideopen.LensBlur --help lists'
 blur 1 -o x.exr --clip Mask=missing.exr
 says missing.exr
 blur 1 -o x.exr --clip "Mask=$scene:nonsense"
@@ -384,11 +387,18 @@ echo 'no picture' >text.exr
 blur 1 -o x.exr --clip Mask=text.exr
 blur 1 -o missing-folder/x.exr
 says missing-folder
+mkdir folder.exr
+blur 1 -o folder.exr
+says 'cannot write folder.exr: it exists and is no ordinary file'
 blur 1 -o x.gif
 says exr
 blur 1 -o x.exr --bits 8
+blur 1 -o x.hdr --bits half
+says 'the samples of hdr are float only; see --bits'
+blur 1 -o x.png --bits float
+says 'the samples of png are 8 or 16 only'
 blur 1 -o x.exr --ocio missing.ocio
-says missing.ocio
+says 'cannot read the OpenColorIO configuration missing.ocio: No such file'
 blur 1 -o x.exr --report missing-folder/report.json
 rm -f x.exr
 blur 1 -o x.exr --window 1000,0,1010,10

@@ -165,8 +165,7 @@ shot() {
     blur "$wanted" in.####.exr depth.####.exr:depth "$output" --frames "$list" "$@"
 }
 shot 1 2-6 stop.####.exr
-says 'depth.0004.exr'
-says 'missing-frames'
+says 'there is no depth.0004.exr (frames 2 to 5); --missing-frames skip'
 present stop.0003.exr
 absent stop.0004.exr
 shot 2 2-6 stop.####.exr --missing-frames black
@@ -194,6 +193,8 @@ same hold.0004.exr skip.0003.exr
 same hold.0005.exr skip.0005.exr
 same hold.0006.exr skip.0005.exr
 # A farm that renders one frame gets the same.
+blur 1 none.####.exr depth.####.exr:depth stop.####.exr --frames 2-6
+says 'there is no none.0002.exr, nor any other frame of none.####.exr$'
 shot 0 4 alone.####.exr --missing-frames hold
 same alone.0004.exr hold.0004.exr
 shot 1 4 none.####.exr --missing-frames skip
