@@ -272,12 +272,12 @@ static void list_name(char *list, size_t size, const char *name)
         snprintf(list + used, size - used, ", ...");
 }
 
-/* Is a name part of an identifier, in whatever case? */
-static bool resembles(const char *identifier, const char *name)
+/* Is a name part of an identifier or a label, in whatever case? */
+static bool resembles(const char *text, const char *name)
 {
     const size_t length = strlen(name);
-    for (; *identifier; identifier++)
-        if (strncasecmp(identifier, name, length) == 0)
+    for (; *text; text++)
+        if (strncasecmp(text, name, length) == 0)
             return true;
     return false;
 }
@@ -303,10 +303,11 @@ static size_t list_asked(const wo_host *host, const match *best, bool alike, cha
         if (best->ambiguous && binary->folder != best->binary->folder)
             continue;
         for (size_t k = 0; k < binary->catalogue.count; k++) {
-            const char *identifier = binary->catalogue.items[k].info.identifier;
+            const wo_host_found *info = &binary->catalogue.items[k].info;
+            const char *identifier = info->identifier;
             if (best->ambiguous && strcmp(last_part(identifier), best->name) != 0)
                 continue;
-            if (alike && !resembles(identifier, best->name))
+            if (alike && !resembles(identifier, best->name) && !resembles(info->label, best->name))
                 continue;
             count++;
             if (!is_listed(list, identifier))

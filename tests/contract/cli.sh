@@ -73,6 +73,8 @@ expect 2 describe LensBlur --context Paint
 says Paint
 expect 2 describe lensblur
 says 'no plugin "lensblur"; did you mean org.wideopen.LensBlur$'
+expect 2 describe 'Lens Blur'
+says 'no plugin "Lens Blur"; did you mean org.wideopen.LensBlur$'
 expect 0 render LensBlur --help
 shows fStop
 shows 'default'
