@@ -159,10 +159,13 @@ OfxStatus wo_act(wo_entry *entry, wo_frame *frame, wo_props *in, wo_props *out)
     frame->thread_index = 0;
     frame->spawned = false;
     wo_frame_set(frame);
+    wo_surroundings before;
+    wo_surroundings_enter(&before);
     OfxStatus status =
         entry->plugin->mainEntry(texts[frame->action], frame->object ? frame->object->handle : NULL,
                                  in ? (OfxPropertySetHandle)in->handle : NULL,
                                  out ? (OfxPropertySetHandle)out->handle : NULL);
+    wo_surroundings_leave(&before);
     if (!legal(frame->action, status)) {
         wo_violate(entry->host, "it answers %s (%d)", wo_ofx_status_text(status), status);
         status = kOfxStatFailed;

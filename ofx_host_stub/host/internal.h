@@ -5,6 +5,7 @@
 
 #include "found.h"
 
+#include <fenv.h>
 #include <pthread.h>
 #include <stdatomic.h>
 
@@ -175,6 +176,17 @@ const char *wo_handle_fault(const void *handle, wo_handle_kind kind);
 OfxHost *wo_process_ofx_host(void);
 WO_NODISCARD bool wo_process_enter(wo_host *host, const wo_host_config *config);
 void wo_process_leave(wo_host *host);
+
+/* What the code of plugins changes though it is not theirs: the working directory, the mask of new
+   files, how this thread computes (a binary made for speed alone sets that as it is mapped). leave
+   puts back how the thread computed at enter, and the rest as the process had it when its first
+   host came. */
+typedef struct wo_surroundings {
+    fenv_t floats;
+} wo_surroundings;
+
+void wo_surroundings_enter(wo_surroundings *now);
+void wo_surroundings_leave(const wo_surroundings *before);
 
 /* --------------------------------------------------------------------------------------- frames */
 

@@ -129,7 +129,10 @@ wo_module *wo_module_open(const wo_binary *binary, const char **why)
     if (module) {
         free(path);
     } else {
+        wo_surroundings before;
+        wo_surroundings_enter(&before);
         module = module_map(path, why);
+        wo_surroundings_leave(&before);
         if (module) {
             module->next = modules.first;
             modules.first = module;
@@ -166,8 +169,12 @@ int wo_module_count(const wo_module *module)
 static const char *unfit(wo_module *module, int index)
 {
     loaded *it = &module->plugins[index];
-    if (!it->plugin)
+    if (!it->plugin) {
+        wo_surroundings before;
+        wo_surroundings_enter(&before);
         it->plugin = module->get(index);
+        wo_surroundings_leave(&before);
+    }
     const OfxPlugin *plugin = it->plugin;
     if (!plugin)
         return "is NULL";
@@ -182,6 +189,14 @@ static const char *unfit(wo_module *module, int index)
     if (!plugin->setHost || !plugin->mainEntry)
         return "lacks a function";
     return NULL;
+}
+
+/* A plugin of another interface is none of ours, but nothing is wrong with it. */
+static bool is_foreign(const OfxPlugin *plugin)
+{
+    return plugin && plugin->pluginApi &&
+           (strcmp(plugin->pluginApi, kOfxImageEffectPluginApi) != 0 ||
+            plugin->apiVersion != kOfxImageEffectPluginApiVersion);
 }
 
 /* Is what the binary gives now the plugin this entry was made for? */
@@ -207,7 +222,10 @@ OfxStatus wo_entry_load(wo_entry *entry)
     entry->plugin = it->plugin;
     if (status == kOfxStatOK && it->loads == 0) {
         wo_frame frame = {.action = WO_ACTION_LOAD};
+        wo_surroundings before;
+        wo_surroundings_enter(&before);
         it->plugin->setHost(wo_process_ofx_host());
+        wo_surroundings_leave(&before);
         status = wo_act(entry, &frame, NULL, NULL);
     }
     if (status == kOfxStatOK || status == kOfxStatReplyDefault) {
@@ -324,8 +342,10 @@ wo_entry *wo_module_describe(wo_host *host, wo_binary *binary, wo_module *module
     pthread_mutex_lock(&modules.lock);
     const char *why = unfit(module, index);
     pthread_mutex_unlock(&modules.lock);
-    if (why)
+    if (why && is_foreign(module->plugins[index].plugin))
         wo_note(host, "%s: plugin %d %s", binary->bundle, index, why);
+    else if (why)
+        wo_note_failure(host, "%s: plugin %d %s", binary->bundle, index, why);
     else if (known(host, module->plugins[index].plugin))
         wo_note(host, "%s: %s was found before", binary->bundle,
                 module->plugins[index].plugin->pluginIdentifier);

@@ -2,8 +2,11 @@
 /* Copyright the WideOpen authors */
 #include "internal.h"
 
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 /* The suites' functions get a handle, or nothing at all, and may be called from any thread: which
    object is meant must be found without a host at hand. Hence the only mutable statics of the
@@ -26,7 +29,9 @@ static struct {
     uint32_t generation; /* first generation of new slots */
     wo_host *hosts;
     OfxHost ofx_host;
-    wo_props properties; /* of ofx_host */
+    wo_props properties;   /* of ofx_host */
+    char folder[PATH_MAX]; /* the working directory that is the caller's; "" = none is known */
+    mode_t mask;           /* of new files */
 } process = {
     .setup = PTHREAD_MUTEX_INITIALIZER, .lock = PTHREAD_MUTEX_INITIALIZER, .generation = 1};
 
@@ -152,6 +157,27 @@ OfxHost *wo_process_ofx_host(void)
     return &process.ofx_host;
 }
 
+static void remember_surroundings(void)
+{
+    if (!getcwd(process.folder, sizeof process.folder))
+        process.folder[0] = '\0';
+    process.mask = umask(077);
+    umask(process.mask);
+}
+
+void wo_surroundings_enter(wo_surroundings *now)
+{
+    (void)fegetenv(&now->floats);
+}
+
+void wo_surroundings_leave(const wo_surroundings *before)
+{
+    (void)fesetenv(&before->floats);
+    umask(process.mask);
+    if (process.folder[0] && chdir(process.folder) != 0)
+        return; /* it is gone: there is no way back */
+}
+
 bool wo_process_enter(wo_host *host, const wo_host_config *config)
 {
     pthread_mutex_lock(&process.setup);
@@ -161,6 +187,7 @@ bool wo_process_enter(wo_host *host, const wo_host_config *config)
     process.hosts = host;
     wo_process_unlock();
     if (first) {
+        remember_surroundings();
         wo_props_init(&process.properties, host, WO_PROPS_NEVER, "the host");
         wo_schema_host(&process.properties, config);
         process.ofx_host.host = (OfxPropertySetHandle)process.properties.handle;

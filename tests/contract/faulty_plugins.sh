@@ -62,6 +62,16 @@ says "plugin.*$WO_TEST_REFUSES\$"
 absent refused.exr
 unset WO_TEST_REFUSES
 
+# Where a plugin goes, and what it does to the mask of new files, is its own affair.
+WO_TEST_STRAYS=1
+export WO_TEST_STRAYS
+expect 0 render Fresh --size 8x8 -o strays.exr --report strays.json --plugin-path "$plugins/fresh"
+present strays.exr
+present strays.json
+checks=$((checks + 1))
+[ "$(find strays.exr strays.json -perm -200 | wc -l)" -eq 2 ] || fail "files nobody may write"
+unset WO_TEST_STRAYS
+
 # Everything: the list is made, and says who fails and why.
 expect 0 list --plugin-wait 2
 shows '^org.wideopen.LensBlur '
@@ -72,6 +82,7 @@ says 'failed: .*/LoadCrash.ofx.bundle: crashed (signal 6, .*it said: missing'
 says 'failed: .*/LoadHang.ofx.bundle: was killed .* while it was loaded'
 says 'failed: .*/DescribeHang.ofx.bundle: was killed .*DescribeHang.Middle described itself'
 says 'failed: .*/CountMany.ofx.bundle: '
+says 'failed: .*/GetNull.ofx.bundle: plugin 1 is NULL'
 says '^wideopen: org.wideopen.test.DescribeWrong.Middle breaks the rules of OpenFX 2 times: OfxActionDescribe: '
 checks=$((checks + 1))
 [ "$(grep -c DescribeWrong stderr)" -eq 1 ] || fail "more than a line for a plugin"

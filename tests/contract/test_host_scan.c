@@ -3,7 +3,9 @@
 #include "host_fixture.h"
 
 #include <errno.h>
+#include <fenv.h>
 #include <ftw.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -281,6 +283,29 @@ static void plugins_are_fetched_again_after_unload(void **state)
     }
 }
 
+/* The working directory, the mask of new files and the rounding of this thread are the caller's. */
+static void plugins_change_nothing_of_the_process(void **state)
+{
+    char before[PATH_MAX], after[PATH_MAX];
+    (void)state;
+    assert_non_null(getcwd(before, sizeof before));
+    const mode_t mask = umask(027);
+    assert_int_equal(setenv("WO_TEST_STRAYS", "1", 1), 0);
+    wo_host *host = fixture_host("fresh", 1, true, 0);
+    wo_host_instance *instance = fixture_instance(host, "Fresh", NULL);
+    wo_image image = fixture_render(instance, 1, 1, (wo_rect){0, 0, 8, 8}, 0, NULL);
+    const int rounding = fegetround();
+    const mode_t left = umask(mask);
+    assert_non_null(getcwd(after, sizeof after));
+    assert_int_equal(unsetenv("WO_TEST_STRAYS"), 0);
+    assert_int_equal(rounding, FE_TONEAREST);
+    assert_int_equal(left, 027);
+    assert_string_equal(after, before);
+    wo_host_image_free(&image);
+    wo_host_instance_destroy(&instance);
+    wo_host_destroy(&host);
+}
+
 #define with_folder(test) cmocka_unit_test_setup_teardown(test, set_up, tear_down)
 
 int main(void)
@@ -294,6 +319,7 @@ int main(void)
         with_folder(search_path),
         with_folder(scanning_again_adds_nothing),
         cmocka_unit_test(plugins_are_fetched_again_after_unload),
+        cmocka_unit_test(plugins_change_nothing_of_the_process),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,9 +7,12 @@
 
 #include "host_plugin.h"
 
+#include <fenv.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 static OfxPlugin *made;
 
@@ -44,6 +47,14 @@ static OfxStatus render(OfxImageEffectHandle effect, OfxPropertySetHandle in)
     return ofx.effect->clipReleaseImage(output.handle);
 }
 
+static void stray(void)
+{
+    if (chdir("/") != 0)
+        abort();
+    umask(0777);
+    fesetround(FE_UPWARD);
+}
+
 static OfxStatus main_entry(const char *action, const void *handle, OfxPropertySetHandle in,
                             OfxPropertySetHandle out)
 {
@@ -51,6 +62,8 @@ static OfxStatus main_entry(const char *action, const void *handle, OfxPropertyS
     (void)out;
     if (!made)
         abort();
+    if (getenv("WO_TEST_STRAYS"))
+        stray();
     if (strcmp(action, kOfxActionLoad) == 0)
         return ofx_load() ? kOfxStatOK : kOfxStatFailed;
     if (strcmp(action, kOfxActionUnload) == 0) {
