@@ -4,8 +4,11 @@
 
 #include "optics/pencil_tilt.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
+
+static_assert(WO_TILE_WIDTH <= (int)WO_PENCIL_SERVES, "one pencil serves a row of a tile");
 
 wo_rect wo_tiles_of(wo_rect r)
 {

@@ -145,6 +145,13 @@ static wo_status make_table_lens(wo_plan *plan, wo_error *error)
                             wavelengths - plan->facts.wavelengths, "wavelengths");
     if (plan->facts.exact && !options.exact)
         warn_table(plan);
+    if (plan->facts.step_px > WO_STEP_PX)
+        wo_report_warn(
+            &plan->report, "lens-steps",
+            "the aberrations of this lens change by %.2g px (RMS) over the %d px of a row "
+            "that share rays: steps may show there. A larger picture, a smaller aperture "
+            "or a longer lens has smaller ones",
+            plan->facts.step_px, WO_PENCIL_SERVES);
     if (plan->facts.beyond > 0)
         wo_report_leave_out(&plan->report, "lens rays", "they go farther than the largest blur",
                             100 * plan->facts.beyond, "% of those tried");

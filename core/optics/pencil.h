@@ -17,6 +17,9 @@ typedef struct wo_pencil {
     const float *weight[3];         /* [count] for red, green and blue; all NULL = all 1 */
 } wo_pencil;
 
+/* Renderers may use one pencil for so many pixels of a row. */
+enum { WO_PENCIL_SERVES = 64 };
+
 /* Room for the rays a lens makes at one time. */
 enum { WO_PENCIL_PIECE = 512 };
 typedef struct wo_pencil_room {

@@ -300,6 +300,44 @@ static void survey(wo_table_pencils *p, wo_table_facts *facts)
     p->reach_b = 1.05 * b_max + 1e-6;
 }
 
+/* How far rays move on the sensor from one field point to the next that has pencils of its own,
+   WO_PENCIL_SERVES px on: RMS over the iris at the worst place. */
+static double step_of(const wo_table_pencils *p)
+{
+    enum { FIELDS = 9, POINTS = 64 };
+    float s[POINTS];
+    float t[POINTS];
+    float out[2][5][POINTS];
+    const double f = p->options.focal_px;
+    const double next = WO_PENCIL_SERVES / f;
+    double most = 0;
+    for (int i = 0; i < POINTS; i++) {
+        double u[2];
+        wo_iris_place(i, POINTS, u);
+        s[i] = (float)u[0];
+        t[i] = (float)u[1];
+    }
+    for (int k = 0; k < FIELDS; k++) {
+        const double h = (p->field - next) * k / (FIELDS - 1);
+        double sum = 0;
+        int count = 0;
+        for (int side = 0; side < 2 && h >= 0; side++) {
+            float(*const o)[POINTS] = out[side];
+            const wo_table_rays rays = {o[0], o[1], o[2], o[3], o[4], NULL};
+            upright_rays(p, p->lines / 2, h + side * next, s, t, POINTS, &rays);
+        }
+        for (int i = 0; i < POINTS && h >= 0; i++) {
+            const double dx = (double)(out[1][0][i] - out[0][0][i]);
+            const double dy = (double)(out[1][1][i] - out[0][1][i]);
+            const bool both = out[0][4][i] > 0 && out[1][4][i] > 0;
+            sum += both ? dx * dx + dy * dy : 0;
+            count += both;
+        }
+        most = fmax(most, count > 0 ? f * sqrt(sum / count) : 0);
+    }
+    return most;
+}
+
 static bool good_enough(const wo_table_facts *facts)
 {
     return facts->rms_px <= WO_TABLE_MOST_PX && facts->lit_error <= WO_TABLE_MOST_LIT;
@@ -435,6 +473,7 @@ wo_status wo_table_pencils_create(const wo_context *context, const wo_lens_model
         return status;
     }
     facts->wavelengths = p->lines;
+    facts->step_px = step_of(p);
     facts->field_lit = p->field_lit;
     *pencils = p;
     return WO_OK;

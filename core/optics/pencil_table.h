@@ -39,6 +39,7 @@ typedef struct wo_table_facts {
     bool ideal;           /* rays are those of a thin lens to WO_IDEAL_PX */
     double beyond;        /* part of the rays that are left out because they go too far */
     double aberration_px; /* longest a of any ray that gets through */
+    double step_px;       /* RMS of how far rays move from one pencil's place to the next */
 } wo_table_facts;
 
 #define WO_COLOUR_PX 0.05
@@ -47,6 +48,7 @@ typedef struct wo_table_facts {
 /* A table that is farther off than this is not used. */
 #define WO_TABLE_MOST_PX  0.25
 #define WO_TABLE_MOST_LIT 0.02
+#define WO_STEP_PX        2.0 /* more shows */
 
 /* Borrows the model. No ray goes farther than the lens's reach says, whatever the model does. */
 WO_NODISCARD wo_status wo_table_pencils_create(const wo_context *context,

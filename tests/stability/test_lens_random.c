@@ -112,11 +112,51 @@ static void lamps_beyond_the_image_circle(void **state)
     scene_free(&s);
 }
 
+static bool warned(const scene *s, const char *key)
+{
+    wo_report report = {0};
+    wo_image out = scene_render(s, &report);
+    bool any = false;
+    for (int i = 0; i < report.warning_count; i++)
+        any |= strcmp(report.warnings[i].key, key) == 0;
+    picture_free(&out);
+    return any;
+}
+
+/* What shows in the picture is told: steps where rays are shared, lenses without a table. */
+static void what_shows_is_told(void **state)
+{
+    (void)state;
+    scene s;
+    scene_init(&s, (wo_rect){0, 0, 160, 90});
+    scene_fill_busy(&s, 3);
+    s.params.samples = 4;
+    s.params.wavelengths = 1;
+    s.params.focal_length = 50;
+    s.params.sensor_width = 36;
+    s.params.f_stop = 1.4;
+    assert_false(warned(&s, "lens-steps"));
+    s.params.lens = WO_LENS_SINGLET;
+    assert_true(warned(&s, "lens-steps"));
+    s.params.f_stop = 11;
+    assert_false(warned(&s, "lens-steps"));
+    assert_false(warned(&s, "lens-table"));
+    s.params.lens = WO_LENS_PRESCRIPTION;
+    for (int k = 0; k < WO_LENS_DESIGNS; k++)
+        if (strcmp(wo_lens_design((size_t)k), "asphere_edmund_54") == 0)
+            s.params.lens_design = k;
+    s.params.f_stop = 0.7;
+    s.params.sensor_width = 50;
+    assert_true(warned(&s, "lens-table"));
+    scene_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_lens_anywhere),
         cmocka_unit_test(lamps_beyond_the_image_circle),
+        cmocka_unit_test(what_shows_is_told),
     };
     return cmocka_run_group_tests_name("lens_random", tests, NULL, NULL);
 }
