@@ -115,9 +115,6 @@ static wo_status check_shape(const wo_io_part *density, const wo_io_part *height
     if (!density || !height)
         return wo_fail(error, WO_ERR_FORMAT,
                        "no pencil map: it must have the parts density and height");
-    const char *const fault = density->fault ? density->fault : height->fault;
-    if (fault)
-        return wo_fail(error, WO_ERR_FORMAT, "no pencil map: %s", fault);
     const wo_rect wide = density->data_window, narrow = height->data_window;
     if (wo_rect_width(narrow) != 1 || wo_rect_height(narrow) != wo_rect_height(wide) ||
         height->channels != density->channels)
