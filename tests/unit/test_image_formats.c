@@ -219,9 +219,11 @@ static void requests_that_cannot_be(void **state)
     assert_fault(wo_io_write(name, from, count, depth, &fault), status, words)
     REFUSED(in_folder("a.png"), parts, 2, WO_IO_AUTO, WO_ERR_UNSUPPORTED, "2 parts need EXR");
     REFUSED(in_folder("a.png"), &wide, 1, WO_IO_AUTO, WO_ERR_UNSUPPORTED, "5 channels need EXR");
-    REFUSED(in_folder("a.png"), &part, 1, WO_IO_SINGLE, WO_ERR_UNSUPPORTED, "8-bit 16-bit samples");
-    REFUSED(in_folder("a.jpg"), &part, 1, WO_IO_SHORT, WO_ERR_UNSUPPORTED, "8-bit samples");
-    REFUSED(in_folder("a.tif"), &part, 1, WO_IO_HALF, WO_ERR_UNSUPPORTED, "float samples");
+    REFUSED(in_folder("a.png"), &part, 1, WO_IO_SINGLE, WO_ERR_UNSUPPORTED,
+            "of png are 8 or 16 only");
+    REFUSED(in_folder("a.jpg"), &part, 1, WO_IO_SHORT, WO_ERR_UNSUPPORTED, "of jpg are 8 only");
+    REFUSED(in_folder("a.tif"), &part, 1, WO_IO_HALF, WO_ERR_UNSUPPORTED,
+            "of tif are 8 or 16 or float only");
     REFUSED(in_folder("a.exr"), &part, 1, WO_IO_BYTE, WO_ERR_UNSUPPORTED, "half or float");
     REFUSED(in_folder("a.webp"), &part, 1, WO_IO_AUTO, WO_ERR_UNSUPPORTED, "extension is none of");
     REFUSED(in_folder("exr"), &part, 1, WO_IO_AUTO, WO_ERR_UNSUPPORTED, "extension is none of");
