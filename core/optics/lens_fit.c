@@ -102,8 +102,7 @@ static void spread(const double *x, int sides, int side, int degree, int to_degr
 static bool exists(const wo_lens_fit *fit, const wo_model_ray *ray)
 {
     const wo_lens_request *const r = &fit->request;
-    const double far = hypot(ray->a[0], ray->a[1]) + r->blur_dioptres * hypot(ray->b[0], ray->b[1]);
-    return ray->weight > 0 && r->focal_px * far <= BEYOND_REACH * r->max_px;
+    return ray->weight > 0 && wo_lens_ray_reach(r, ray) <= BEYOND_REACH * r->max_px;
 }
 
 static void fit_clips(const wo_lens_fit *fit, int rows, work *w, point_fit *p)

@@ -8,12 +8,17 @@ enum { POINTS = 256, HALVINGS = 6 };
 
 #define GOLDEN_ANGLE 2.399963229728653
 
-bool wo_lens_ray_counts(const wo_lens_model *model, const wo_lens_request *request,
-                        const wo_model_ray *ray)
+double wo_lens_ray_reach(const wo_lens_request *request, const wo_model_ray *ray)
 {
     const double far =
         hypot(ray->a[0], ray->a[1]) + request->blur_dioptres * hypot(ray->b[0], ray->b[1]);
-    return wo_model_ray_clip(model, ray) <= 1 && request->focal_px * far <= request->max_px;
+    return request->focal_px * far;
+}
+
+bool wo_lens_ray_counts(const wo_lens_model *model, const wo_lens_request *request,
+                        const wo_model_ray *ray)
+{
+    return wo_model_ray_clip(model, ray) <= 1 && wo_lens_ray_reach(request, ray) <= request->max_px;
 }
 
 static double lit_part(const wo_lens_model *model, const wo_lens_request *request, double h)

@@ -107,8 +107,8 @@ static void make_trial(void *user, size_t index, unsigned worker)
     const double angle = 2 * PI * unit(&state);
     t->u[0] = r * cos(angle);
     t->u[1] = r * sin(angle);
-    t->counts = wo_lens_model_ray(job->model, t->h, t->u, job->request->nm[t->line], &t->ray) &&
-                wo_lens_ray_counts(job->model, job->request, &t->ray);
+    (void)wo_lens_model_ray(job->model, t->h, t->u, job->request->nm[t->line], &t->ray);
+    t->counts = wo_lens_ray_counts(job->model, job->request, &t->ray);
 }
 
 /* How far in the iris it is from a trial to where the model's answer changes: the table's edge is

@@ -39,6 +39,8 @@ typedef struct wo_lens_request {
     double max_px;        /* rays with |a| + blur |b| beyond it do not count; INFINITY = all do */
 } wo_lens_request;
 
+/* focal_px (|a| + blur |b|): no farther does it go within the blur. */
+double wo_lens_ray_reach(const wo_lens_request *request, const wo_model_ray *ray);
 /* Is the ray there, not blocked, and does it stay within max_px? */
 bool wo_lens_ray_counts(const wo_lens_model *model, const wo_lens_request *request,
                         const wo_model_ray *ray);
